@@ -1,0 +1,160 @@
+"""One setting, one line: value, unit, range, meaning and origin together.
+
+The command's flags and help, the docs table, validation and the tuning ranges read the same line, so they cannot
+disagree.
+"""
+
+from __future__ import annotations
+
+import difflib
+import hashlib
+import json
+import types
+import typing
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from numbers import Integral, Real
+from typing import Any
+
+from .errors import ParameterError
+
+
+def param(
+    default: Any,
+    unit: str,
+    doc: str,
+    *,
+    low: float | None = None,
+    high: float | None = None,
+    choices: tuple[str, ...] | None = None,
+    source: str,
+) -> Any:
+    """Return a dataclass field that carries its own range [low, high] or choices, unit, meaning and origin."""
+    about = {"unit": unit, "doc": doc, "low": low, "high": high, "choices": choices, "source": source}
+    return field(default=default, metadata=about)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Params:
+    """Base of every parameter set: checks each field against its own kind and range when the object is made."""
+
+    def __post_init__(self) -> None:
+        for f in fields(self):
+            if "source" in f.metadata:
+                _check(f"{type(self).__name__}.{f.name}", getattr(self, f.name), f.default, f.metadata)
+
+    def source_of(self, name: str) -> str:
+        """Where the value of field ``name`` comes from."""
+        origins: Mapping[str, str] = getattr(self, "origins", {})
+        return origins.get(name) or str(type(self).__dataclass_fields__[name].metadata["source"])
+
+
+def _check(where: str, value: Any, default: Any, about: Mapping[str, Any]) -> None:
+    items, kind = (value, type(default[0])) if isinstance(default, tuple) else ((value,), type(default))
+    if isinstance(default, tuple) and (not isinstance(value, tuple) or not value):
+        raise ParameterError(f"{where} = {value!r}: must be a list of {kind.__name__} {_allowed(about)}".rstrip())
+    accepts = {int: Integral, float: Real}.get(kind, kind)
+    low, high = about["low"], about["high"]
+    for item in items:
+        ok = isinstance(item, accepts) and (kind is bool or not isinstance(item, bool))
+        ok = ok and (low is None or item >= low) and (high is None or item <= high)  # NaN is never ok
+        ok = ok and (about["choices"] is None or item in about["choices"])
+        if not ok:
+            raise ParameterError(f"{where} = {value!r}: must be {kind.__name__} {_allowed(about)}".rstrip())
+
+
+def _allowed(about: Mapping[str, Any]) -> str:
+    if about["choices"]:
+        return "one of " + ", ".join(about["choices"])
+    if about["low"] is None and about["high"] is None:
+        return ""
+    return f"in [{about['low']}, {about['high']}] {about['unit']}"
+
+
+def walk(params: Params, prefix: str = "") -> Iterator[tuple[str, Params, str]]:
+    """Yield ``(path, owner, name)`` of every setting below ``params``, in the order they are declared."""
+    for f in fields(params):
+        value = getattr(params, f.name)
+        if is_dataclass(value):
+            yield from walk(typing.cast(Params, value), f"{prefix}{f.name}.")
+        elif "source" in f.metadata:
+            yield f"{prefix}{f.name}", params, f.name
+
+
+def to_dict(params: Params) -> dict[str, Any]:
+    """Return the settings as nested plain dictionaries, ready for TOML or JSON."""
+    tree: dict[str, Any] = {}
+    for path, owner, name in walk(params):
+        *parents, last = path.split(".")
+        node = tree
+        for parent in parents:
+            node = node.setdefault(parent, {})
+        value = getattr(owner, name)
+        node[last] = list(value) if isinstance(value, tuple) else value
+    return tree
+
+
+def with_settings(params: Params, settings: Mapping[str, Any], source: str, where: str = "") -> Any:
+    """Return ``params`` with the nested ``settings`` replaced, each remembered as coming from ``source``.
+
+    Raises
+    ------
+    ParameterError : a name that does not exist (the nearest one is suggested) or a value out of range
+    """
+    known = {f.name: f for f in fields(params) if f.name != "origins"}
+    changed: dict[str, Any] = {}
+    origins = dict(getattr(params, "origins", {}))
+    for name, value in settings.items():
+        if name not in known:
+            raise ParameterError(f"unknown setting {where}{name}{_nearest(name, known)}")
+        current = getattr(params, name)
+        if is_dataclass(current):
+            if not isinstance(value, Mapping):
+                raise ParameterError(f"{where}{name} = {value!r}: is a group of settings, such as {where}{name}."
+                                     f"{fields(current)[0].name}")
+            changed[name] = with_settings(typing.cast(Params, current), value, source, f"{where}{name}.")
+        else:
+            new = _coerce(value, current)
+            if new != current or type(new) is not type(current):
+                changed[name] = new
+                origins[name] = source
+    if hasattr(params, "origins"):
+        changed["origins"] = types.MappingProxyType(origins)
+    return replace(params, **changed)
+
+
+def parse_setting(text: str) -> dict[str, Any]:
+    """Turn ``lamina.dog.sigma_px=2`` into ``{"lamina": {"dog": {"sigma_px": 2}}}``.
+
+    Raises
+    ------
+    ParameterError : the text is not ``path=value``
+    """
+    path, equals, raw = text.partition("=")
+    if not equals or not path.strip() or not raw.strip():
+        raise ParameterError(f"--set {text!r}: must be PATH=VALUE, such as lamina.dog.sigma_px=2")
+    try:
+        value = json.loads(raw)
+    except json.JSONDecodeError:
+        value = raw.strip()
+    for name in reversed(path.strip().split(".")):
+        value = {name: value}
+    return typing.cast(dict[str, Any], value)
+
+
+def settings_hash(params: Params) -> str:
+    """Twelve hexadecimal digits that change when any value changes; stored in every output."""
+    return hashlib.sha256(json.dumps(to_dict(params), sort_keys=True).encode()).hexdigest()[:12]
+
+
+def _coerce(value: Any, current: Any) -> Any:
+    if isinstance(current, tuple) and isinstance(value, list | tuple):
+        return tuple(_coerce(item, current[0]) for item in value)
+    if isinstance(current, float) and isinstance(value, Integral) and not isinstance(value, bool):
+        return float(value)
+    return value
+
+
+def _nearest(name: str, known: Mapping[str, Any]) -> str:
+    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+    return f": did you mean {close[0]}?" if close else f": known here are {', '.join(known)}"
