@@ -9,7 +9,6 @@ from __future__ import annotations
 import difflib
 import hashlib
 import json
-import types
 import typing
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
@@ -36,7 +35,12 @@ def param(
 
 @dataclass(frozen=True, kw_only=True)
 class Params:
-    """Base of every parameter set: checks each field against its own kind and range when the object is made."""
+    """Base of every parameter set: checks each field against its own kind and range when the object is made.
+
+    ``origins`` names where a value came from when it is not the declared one: a preset, a file, the command line.
+    """
+
+    origins: Mapping[str, str] = field(default_factory=dict, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         for f in fields(self):
@@ -45,8 +49,7 @@ class Params:
 
     def source_of(self, name: str) -> str:
         """Where the value of field ``name`` comes from."""
-        origins: Mapping[str, str] = getattr(self, "origins", {})
-        return origins.get(name) or str(type(self).__dataclass_fields__[name].metadata["source"])
+        return self.origins.get(name) or str(type(self).__dataclass_fields__[name].metadata["source"])
 
 
 def _check(where: str, value: Any, default: Any, about: Mapping[str, Any]) -> None:
@@ -103,7 +106,7 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
     """
     known = {f.name: f for f in fields(params) if f.name != "origins"}
     changed: dict[str, Any] = {}
-    origins = dict(getattr(params, "origins", {}))
+    origins = dict(params.origins)
     for name, value in settings.items():
         if name not in known:
             raise ParameterError(f"unknown setting {where}{name}{_nearest(name, known)}")
@@ -114,13 +117,9 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
                                      f"{fields(current)[0].name}")
             changed[name] = with_settings(typing.cast(Params, current), value, source, f"{where}{name}.")
         else:
-            new = _coerce(value, current)
-            if new != current or type(new) is not type(current):
-                changed[name] = new
-                origins[name] = source
-    if hasattr(params, "origins"):
-        changed["origins"] = types.MappingProxyType(origins)
-    return replace(params, **changed)
+            changed[name] = _coerce(value, current)
+            origins[name] = source
+    return replace(params, origins=origins, **changed)
 
 
 def parse_setting(text: str) -> dict[str, Any]:

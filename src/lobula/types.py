@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -19,7 +20,8 @@ STATES: tuple[State, ...] = ("ok", "warming_up", "stale", "flash", "turning")
 """Named states of a reading; the position in this tuple is the code the C core uses."""
 
 
-class Frame(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Frame:
     """One picture of a source: ``image`` (H, W) luminance 0..255, ``time_s`` its own stamp, ``index`` its number."""
 
     image: NDArray[np.uint8] | Image

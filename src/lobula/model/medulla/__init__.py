@@ -1,0 +1,1 @@
+"""Medulla: where looming and translation part; lateral inhibition and grouping for the LGMDs, EMDs for the LPTCs."""

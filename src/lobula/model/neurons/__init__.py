@@ -1,0 +1,1 @@
+"""The four spiking neurons: integration, sigmoid, adaptation, spikes."""

@@ -1,0 +1,50 @@
+"""Named settings: which mechanism is on, and where each value comes from."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..errors import ParameterError
+from ..params import with_settings
+from .network import NetworkParams
+
+Settings = dict[str, Any]
+
+LGMD2_PUBLISHED: Settings = {
+    "on": {
+        "centre_weight": 2.0, "nearest_weight": 0.5, "diagonal_weight": 0.25,
+        "centre_ms": 15.0, "nearest_ms": 30.0, "diagonal_ms": 45.0, "bias": 1.0,
+    },
+    "change_ms": 90.0,
+    "product_gain": 1.0,
+}  # fmt: skip
+PUBLISHED: dict[str, Settings] = {"published code: LGMD2-open-source": {"lgmd2": LGMD2_PUBLISHED}}
+BASES: dict[str, dict[str, Settings]] = {
+    "published": PUBLISHED,
+    "paper": PUBLISHED,
+}
+"""For each base preset, the settings that differ from the declared defaults, by origin."""
+
+DEFAULT = "published"
+NAMES = ("default", *BASES)
+NEURONS = ("all", "lgmds", "lgmd2")
+
+
+def preset(name: str = "default", *, neurons: str = "all") -> NetworkParams:
+    """Return the settings of a preset: ``paper``, ``published`` or ``default``.
+
+    ``neurons`` selects who decides: ``all`` four, the two ``lgmds``, or ``lgmd2`` alone.
+
+    Raises
+    ------
+    ParameterError : an unknown preset or selection
+    """
+    if name not in NAMES:
+        raise ParameterError(f"preset {name!r}: must be one of {', '.join(NAMES)}")
+    if neurons not in NEURONS:
+        raise ParameterError(f"neurons {neurons!r}: must be one of {', '.join(NEURONS)}")
+    params = NetworkParams()
+    for origin, settings in BASES[DEFAULT if name == "default" else name].items():
+        params = with_settings(params, settings, origin)
+    chosen: NetworkParams = with_settings(params, {"decision": {"neurons": neurons}}, "chosen by the caller")
+    return chosen

@@ -1,0 +1,106 @@
+"""Retina: photoreceptors report the change of luminance between two successive pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..params import Params, param
+from ..types import Image
+
+
+@dataclass(frozen=True, kw_only=True)
+class FlashParams(Params):
+    """When a change of the whole picture is taken for a change of light, and taken out."""
+
+    enabled: bool = param(True, "", "recognise global changes of light", source="chosen")
+    min_change_grey: float = param(
+        1.0, "grey", "smallest mean change of the picture", low=0.1, high=255, source="chosen"
+    )
+    min_coverage: float = param(
+        0.8, "", "share of the pixels that brighten, or darken, together", low=0.5, high=1, source="chosen"
+    )
+    min_explained: float = param(
+        0.5, "", "share of the squared change that one gain and offset explain", low=0, high=1, source="chosen"
+    )
+    min_gain: float = param(0.2, "", "smallest gain a lamp or exposure step has", low=0.01, high=1, source="chosen")
+    max_gain: float = param(5.0, "", "largest gain", low=1, high=100, source="chosen")
+
+
+class ChangeStatistics(NamedTuple):
+    """What one look at the change of the whole picture tells, luminance units."""
+
+    mean: float
+    mean_abs: float
+    max_abs: float
+    brighter: float
+    """Share of the pixels that brighten by more than half a grey level."""
+    darker: float
+
+
+class Light(NamedTuple):
+    """The previous picture in today's light is ``gain * previous + offset``."""
+
+    gain: float = 1.0
+    offset: float = 0.0
+
+
+SAME_LIGHT = Light()
+
+
+def change_statistics(image: NDArray[Any], previous: Image) -> ChangeStatistics:
+    """Summarise ``image - previous``, both (H, W), before any filtering."""
+    change = image.astype(np.float32, copy=False) - previous
+    size = change.size
+    return ChangeStatistics(
+        mean=float(change.sum(dtype=np.float64)) / size,
+        mean_abs=float(np.abs(change).sum(dtype=np.float64)) / size,
+        max_abs=float(np.abs(change).max()),
+        brighter=int(np.count_nonzero(change > 0.5)) / size,
+        darker=int(np.count_nonzero(change < -0.5)) / size,
+    )
+
+
+def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p: FlashParams) -> Light | None:
+    """Return the change of light that explains the change of the picture, or None.
+
+    A lamp, a shutter or an exposure step multiplies and shifts every pixel alike: image = gain * previous + offset.
+    A near object that spreads over the view does not, since what it covers no longer depends on what was there: its
+    fitted gain falls to zero, below ``min_gain``, and the alarm stands. One picture is fitted by least squares, and
+    only when most of it changed in one direction.
+
+    Source: chosen; gain and offset are the two parameters of exposure control.
+    """
+    together = max(about.brighter, about.darker) >= p.min_coverage
+    if not (p.enabled and together and abs(about.mean) >= p.min_change_grey):
+        return None
+    new, old = image.astype(np.float64), previous.astype(np.float64)
+    new_mean, old_mean = new.mean(), old.mean()
+    variance = float((old * old).mean() - old_mean * old_mean)
+    covariance = float((new * old).mean() - new_mean * old_mean)
+    # A blank picture has no texture to tell gain from offset: call it an offset.
+    gain = covariance / variance if variance > 1.0 else 1.0
+    offset = float(new_mean - gain * old_mean)
+    total = float(((new - old) ** 2).mean())
+    rest = float(((new - gain * old - offset) ** 2).mean())
+    if not p.min_gain <= gain <= p.max_gain or 1.0 - rest / total < p.min_explained:
+        return None
+    return Light(gain, offset)
+
+
+def frame_difference(image: NDArray[Any], previous: Image, scale: float, light: Light = SAME_LIGHT) -> Image:
+    """Return the signed luminance change P, (H, W) float32.
+
+        P = scale * (L(t) - (gain * L(t-1) + offset))
+
+    ``scale`` is clock / dt: a step that took twice the model clock counts half its change.
+
+    Source: paper, Computational Retina Layer; no persistence (MODEL.md 1.1).
+    """
+    now = image.astype(np.float32, copy=False)
+    if light is SAME_LIGHT:
+        return (now - previous) * np.float32(scale)
+    return (now - (np.float32(light.gain) * previous + np.float32(light.offset))) * np.float32(scale)
