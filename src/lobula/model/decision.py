@@ -62,8 +62,8 @@ class Decision:
         """Empty the window, as after a turn; a collision under way still ends by itself."""
         self.window.clear()
 
-    def step(self, time_s: float, spikes: Spikes, weight: float, may_decide: bool) -> bool:
-        """Add one step's spikes, ``weight`` = dt / clock, and say whether a collision is under way.
+    def step(self, time_s: float, spikes: Spikes, weight: float) -> None:
+        """Add one step's spikes, ``weight`` = dt / clock, and note whether the rule holds.
 
         Over the last ``window_ms``: A = min(LGMD-1, LGMD-2) spikes, B = LPTC spikes, the larger of the two sides.
         The rule holds while A >= ``collision_spikes`` and A > ``lptc_weight`` B.
@@ -72,9 +72,8 @@ class Decision:
         """
         lptc = max(spikes.lptc_r, spikes.lptc_l)
         self.window.append(_Entry(time_s, weight * spikes.lgmd1, weight * spikes.lgmd2, weight * lptc))
-        if may_decide and self.holds(time_s):
+        if self.holds(time_s):
             self.held_s = time_s
-        return self.collision(time_s)
 
     def collision(self, time_s: float) -> bool:
         """Whether the rule held within the last ``end_ms``."""

@@ -131,9 +131,8 @@ class ReferenceNetwork:
 
         lgmd1, lgmd2 = (lgmd.spikes() for lgmd in self.lgmds)
         spikes = Spikes(lgmd1, lgmd2, *self.lptc.spikes())
-        may_decide = not self._warming_up(time_s) and not self._turning(time_s)
-        if not self._turning(time_s):
-            self.decision.step(time_s, spikes, ticks, may_decide)
+        if not self._warming_up(time_s) and not self._turning(time_s):
+            self.decision.step(time_s, spikes, ticks)
         return self._reading(time_s, spikes, turning, {name: maps[name] for name in taps})
 
     def _warming_up(self, time_s: float) -> bool:

@@ -23,6 +23,10 @@ class FlashParams(Params):
     min_coverage: float = param(
         0.8, "", "share of the pixels that brighten, or darken, together", low=0.5, high=1, source="chosen"
     )
+    trim: float = param(
+        3.0, "", "pixels that change more than this many mean changes are left out of the fit", low=1, high=100,
+        source="chosen",
+    )  # fmt: skip
     min_explained: float = param(
         0.5, "", "share of the squared change that one gain and offset explain", low=0, high=1, source="chosen"
     )
@@ -78,6 +82,9 @@ def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p:
     if not (p.enabled and together and abs(about.mean) >= p.min_change_grey):
         return None
     new, old = image.astype(np.float64), previous.astype(np.float64)
+    # What moves in front of the lit scene changes most; leave it out of the fit.
+    lit = np.abs(new - old) <= p.trim * about.mean_abs
+    new, old = new[lit], old[lit]
     new_mean, old_mean = new.mean(), old.mean()
     variance = float((old * old).mean() - old_mean * old_mean)
     covariance = float((new * old).mean() - new_mean * old_mean)
@@ -86,7 +93,7 @@ def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p:
     offset = float(new_mean - gain * old_mean)
     total = float(((new - old) ** 2).mean())
     rest = float(((new - gain * old - offset) ** 2).mean())
-    if not p.min_gain <= gain <= p.max_gain or 1.0 - rest / total < p.min_explained:
+    if not p.min_gain <= gain <= p.max_gain or rest > (1.0 - p.min_explained) * total:
         return None
     return Light(gain, offset)
 
