@@ -1,0 +1,69 @@
+"""Calls a verb and turns every expected failure into one line and an exit code."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Sequence
+from importlib import import_module
+from typing import Any, TextIO, cast
+
+import typer
+
+from ..errors import FrameSourceError, LobulaError, OutputError
+
+_ParserError = cast(type[Exception], typer.BadParameter.__mro__[2])
+"""What the parser raises for a wrong command line: ``ClickException``, which typer names in no public place."""
+
+
+def new_app(**settings: object) -> typer.Typer:
+    """Return the typer application of one verb: plain help, no completion, errors left to ``call``."""
+    return typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
+                       context_settings={"help_option_names": ["-h", "--help"]}, **settings)  # type: ignore[arg-type]
+
+
+def call(verb: str, arguments: Sequence[str]) -> int:
+    """Run ``verb`` and return its exit code; a traceback means a fault of lobula's own."""
+    try:
+        app: typer.Typer = import_module(f".{verb}", __package__).app
+        command = typer.main.get_command(app)
+        result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
+        code = result if isinstance(result, int) else 0
+        return code or _flushed(sys.stdout)
+    except BrokenPipeError:
+        _silence(sys.stdout)
+        return 0
+    except LobulaError as error:
+        return _complain(str(error), 3 if _on_the_way(error) else 2)
+    except (KeyboardInterrupt, typer.Abort):
+        return _complain("interrupted", 130)
+    except _ParserError as error:
+        message = cast(Any, error).format_message().rstrip(".")
+        return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)
+
+
+def _on_the_way(error: LobulaError) -> bool:
+    return isinstance(error, OutputError) or (isinstance(error, FrameSourceError) and error.on_the_way)
+
+
+def _complain(message: str, code: int) -> int:
+    print(f"lobula: {message}", file=sys.stderr)
+    return _flushed(sys.stdout) or code
+
+
+def _flushed(stream: TextIO) -> int:
+    """Flush what was printed; a reader that has gone is no fault, a full disk is."""
+    try:
+        stream.flush()
+    except BrokenPipeError:
+        _silence(stream)
+    except OSError as error:
+        _silence(stream)
+        print(f"lobula: cannot write standard output: {error.strerror}", file=sys.stderr)
+        return 3
+    return 0
+
+
+def _silence(stream: TextIO) -> None:
+    """Point the stream's descriptor nowhere, or Python complains about it once more at exit."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -1,0 +1,50 @@
+"""The events of a run as lines for people."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from ..runtime.sinks import Picture
+from ..types import Reading
+from .progress import Say
+
+
+class Narrator:
+    """A sink that says what happens, through ``say``."""
+
+    def __init__(self, say: Say) -> None:
+        self._say = say
+        self._started: dict[int, float] = {}
+
+    def open(self, header: Mapping[str, Any]) -> None:
+        """Say what is looked at."""
+        self._say(f"{header['source']}: {header['width']} x {header['height']} px, preset {header['preset']}, "
+                  f"neurons {header['neurons']}, settings {header['settings_hash']}, engine {header['engine']}")
+
+    def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
+        """Say nothing."""
+
+    def event(self, record: Mapping[str, Any]) -> None:
+        """Say when something starts, and of a collision when it ended."""
+        at = f"{record['time_s']:8.3f} s  frame {record['frame']:<6}"
+        if record["type"] == "state":
+            if record["phase"] == "start":
+                self._say(f"{at} {str(record['state']).replace('_', ' ')}")
+        elif record["phase"] == "start":
+            self._started[record["id"]] = record["time_s"]
+            potentials = f"LGMD-1 {record['lgmd1']:.2f}, LGMD-2 {record['lgmd2']:.2f}"
+            self._say(f"{at} COLLISION {record['id']}: {potentials}")
+        else:
+            lasted_s = record["time_s"] - self._started.pop(record["id"])
+            self._say(f"{at} collision {record['id']} over after {lasted_s:.2f} s, peak at frame "
+                      f"{record['peak_frame']}")
+
+    def close(self, summary: Mapping[str, Any]) -> None:
+        """Say how it ended."""
+        text = f"{summary['status'].replace('_', ' ')}: {summary['frames']} frames, {summary['collisions']} collisions"
+        if summary["dropped"]:
+            text += f", {summary['dropped']} dropped"
+        if summary["damaged"]:
+            text += f", {summary['damaged']} damaged"
+        self._say(f"{text}, {summary['ms_per_frame']:.3f} ms a frame (worst {summary['ms_worst']:.1f})")

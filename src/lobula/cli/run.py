@@ -1,0 +1,118 @@
+"""``lobula run``: the main job."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from ..errors import LobulaError
+from ..runtime.sinks import Sink
+from . import options as o
+from .call import new_app
+from .progress import Screen, screen
+
+app = new_app()
+
+
+@app.command()
+def run(
+    source: o.Source,
+    json: Annotated[bool, typer.Option("--json", help="NDJSON on standard output: header, events, summary")] = False,
+    trace: Annotated[Path | None, typer.Option(
+        metavar="FILE", help="every frame's reading: .csv, .jsonl, .npz or .parquet")] = None,
+    annotate: Annotated[Path | None, typer.Option(metavar="FILE.mp4", help="video with traces and decisions")] = None,
+    report: Annotated[Path | None, typer.Option(metavar="DIR", help="a folder with a report page")] = None,
+    preset: o.Preset = None,
+    neurons: o.Neurons = None,
+    config: o.Config = None,
+    settings: o.Settings = None,
+    sensitivity: o.Sensitivity = None,
+    engine: o.Engine = "auto",
+    scale_kernels: o.ScaleKernels = False,
+    size: o.Size = "99x72",
+    fit: o.Fit = "crop",
+    roi: o.Roi = None,
+    mask: o.Mask = None,
+    flip: o.Flip = None,
+    rotate: o.Rotate = 0,
+    start: o.Start = None,
+    end: o.End = None,
+    stride: o.Stride = 1,
+    max_frames: o.MaxFrames = None,
+    rate: o.Rate = None,
+    pixel_format: o.PixelFormat = None,
+    input_size: o.InputSize = None,
+) -> int:
+    """Watch SOURCE and say when something is going to hit the camera.
+
+    People read standard error. With --json, programs read standard output: a header, one record for each event that
+    starts or ends, one summary, whatever happens.
+    """
+    from ..frames import open as open_frames
+    from ..runtime.loop import refused_summary
+    from ..runtime.ndjson import NdjsonSink
+    from .settings import choose
+
+    try:
+        chosen = choose(preset, neurons, config, settings or (), sensitivity)
+        files = _file_sinks(trace, annotate, report)
+        frames = open_frames(
+            source, **_view(size, fit, roi, mask, flip, rotate), start_s=start, end_s=end, stride=stride,
+            max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
+            input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
+        )  # fmt: skip
+    except LobulaError as error:
+        if json:
+            NdjsonSink(sys.stdout).close(refused_summary(str(error)))
+        raise
+    with frames, screen(frames.frame_count, frames.name) as here:
+        return _watch(frames, chosen, engine, scale_kernels, files, json, here)
+
+
+def _watch(frames: Any, chosen: Any, engine: str, scale_kernels: bool, files: list[Sink], json: bool,
+           here: Screen) -> int:
+    from ..runtime.header import run_header
+    from ..runtime.loop import run as run_loop
+    from ..runtime.ndjson import NdjsonSink
+    from ..runtime.outputs import Outputs
+    from .narrator import Narrator
+    from .networks import make_network
+
+    network = make_network(chosen.params, engine, scale_kernels)
+    # last: its summary knows what became of the files
+    sinks: list[Sink] = [*files, NdjsonSink(sys.stdout) if json else Narrator(here.say)]
+    header = run_header(frames, chosen.params, preset=chosen.preset, engine=network.engine)
+    for note in frames.notes:
+        here.say(f"lobula: {note}")
+    outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
+    outcome = run_loop(frames, network, outputs, header, on_frame=here.on_frame)
+    if outcome.message:
+        here.say(f"lobula: {outcome.message}")
+    return outcome.exit_code
+
+
+def _view(size: str, fit: str, roi: str | None, mask: Path | None, flip: str | None, rotate: int) -> dict[str, Any]:
+    return {"size": o.parse_size(size, "--size"), "fit": fit, "roi": None if roi is None else o.parse_roi(roi),
+            "mask": mask, "flip": flip, "rotate": rotate}
+
+
+def _file_sinks(trace: Path | None, annotate: Path | None, report: Path | None) -> list[Sink]:
+    """Make the sinks that were asked for; each imports its library here, when it is wanted."""
+    sinks: list[Sink] = []
+    if trace is not None:
+        from ..report.trace import TraceWriter
+
+        sinks.append(TraceWriter(trace))
+    if annotate is not None:
+        from ..report.video import AnnotatedVideo
+
+        sinks.append(AnnotatedVideo(annotate))
+    if report is not None:
+        from ..report.page import ReportPage
+
+        beside = annotate is not None and annotate.parent.resolve() == report.resolve()
+        sinks.append(ReportPage(report, annotate if beside else None))
+    return sinks

@@ -1,0 +1,57 @@
+"""Records as NDJSON, one line each, on their way to the reader before the next frame is looked at."""
+
+from __future__ import annotations
+
+import errno
+import json
+from collections.abc import Mapping
+from typing import Any, TextIO
+
+from ..errors import OutputError
+from ..types import Reading
+from .sinks import Picture
+
+HEADER_KEYS = ("type", "version", "preset", "neurons", "settings_hash", "engine", "source", "width", "height", "fps")
+
+
+class ReaderGoneError(OutputError):
+    """Whoever read this output has closed it, as ``head`` does; no fault, and nothing to report."""
+
+
+class NdjsonSink:
+    """Writes header, events and summary to ``stream``.
+
+    Raises
+    ------
+    ReaderGoneError : from any call, when the reader has closed its end
+    OutputError : from any call, when the line cannot be written
+    """
+
+    def __init__(self, stream: TextIO, name: str = "standard output") -> None:
+        self._stream = stream
+        self._name = name
+
+    def open(self, header: Mapping[str, Any]) -> None:
+        """Write the header record."""
+        self._write({key: header[key] for key in HEADER_KEYS if key in header})
+
+    def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
+        """Do nothing: frames are the trace's business."""
+
+    def event(self, record: Mapping[str, Any]) -> None:
+        """Write one state or collision record."""
+        self._write(record)
+
+    def close(self, summary: Mapping[str, Any]) -> None:
+        """Write the summary record."""
+        self._write(summary)
+
+    def _write(self, record: Mapping[str, Any]) -> None:
+        try:
+            self._stream.write(json.dumps(record, separators=(",", ":"), allow_nan=False) + "\n")
+            self._stream.flush()
+        except BrokenPipeError as error:
+            raise ReaderGoneError(f"{self._name}: closed by its reader") from error
+        except OSError as error:
+            reason = "the disk is full" if error.errno == errno.ENOSPC else error.strerror
+            raise OutputError(f"cannot write {self._name}: {reason}") from error

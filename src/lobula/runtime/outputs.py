@@ -1,0 +1,91 @@
+"""All outputs of a run together: one that fails is reported once and left out, the others go on."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from typing import Any
+
+from ..errors import LobulaError
+from ..types import Reading
+from .events import Record
+from .ndjson import ReaderGoneError
+from .sinks import Picture, Sink
+
+_DISK_FAILED = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}
+
+
+class Outputs:
+    """Hands every call to each sink that still works. ``failures`` holds what went wrong, in the order it did."""
+
+    def __init__(self, sinks: Sequence[Sink], tell: Callable[[str], None]) -> None:
+        self._sinks = tuple(sinks)
+        self._tell = tell
+        self._alive: list[Sink] = []
+        self._tried: list[Sink] = []
+        self.failures: list[str] = []
+
+    @property
+    def deserted(self) -> bool:
+        """True when there were outputs and none is left: nobody would see what comes."""
+        return bool(self._sinks) and not self._alive
+
+    def open(self, header: Mapping[str, Any]) -> None:
+        """Open every sink.
+
+        Raises
+        ------
+        LobulaError : an output cannot be started at all, as in a folder that does not exist; a full disk is no such
+            case, since it says nothing against the request
+        """
+        for sink in self._sinks:
+            self._tried.append(sink)
+            try:
+                sink.open(header)
+            except LobulaError as error:
+                if not (isinstance(error, ReaderGoneError) or _disk_failed(error)):
+                    raise
+                self._note(error)
+            else:
+                self._alive.append(sink)
+
+    def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
+        """Hand a reading to the sinks."""
+        self._each(lambda sink: sink.frame(index, reading, picture))
+
+    def events(self, records: Iterable[Record]) -> None:
+        """Hand records to the sinks, one after the other."""
+        for record in records:
+            self._event(record)
+
+    def close(self, summary: Callable[[], Record]) -> None:
+        """Close every sink that was tried, in order; each is given the summary as it is by then."""
+        for sink in self._tried:
+            try:
+                sink.close(summary())
+            except LobulaError as error:
+                if sink in self._alive:
+                    self._note(error)
+        self._tried = []
+
+    def _event(self, record: Record) -> None:
+        self._each(lambda sink: sink.event(record))
+
+    def _each(self, call: Callable[[Sink], None]) -> None:
+        for sink in tuple(self._alive):
+            try:
+                call(sink)
+            except LobulaError as error:
+                self._alive.remove(sink)
+                self._note(error)
+
+    def _note(self, error: LobulaError) -> None:
+        if not isinstance(error, ReaderGoneError):
+            self.failures.append(str(error))
+            with suppress(OSError):
+                self._tell(str(error))
+
+
+def _disk_failed(error: BaseException) -> bool:
+    return getattr(error.__cause__, "errno", None) in _DISK_FAILED
