@@ -1,0 +1,63 @@
+"""How a file lands on disk: whole or not at all, and with one clear line when it cannot."""
+
+from __future__ import annotations
+
+import errno
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import OutputError
+
+
+@contextmanager
+def writing(path: Path, *also: type[Exception]) -> Iterator[None]:
+    """Turn an OSError (or one of ``also``) into one line that names ``path`` and the reason.
+
+    Raises
+    ------
+    OutputError : anything in the block failed to write
+    """
+    failures: tuple[type[Exception], ...] = (OSError, *also)
+    try:
+        yield
+    except OutputError:
+        raise
+    except failures as error:
+        raise OutputError(f"cannot write {path}: {_reason(error, path)}") from error
+
+
+def _reason(error: Exception, path: Path) -> str:
+    number = getattr(error, "errno", None)
+    if number == errno.ENOENT:
+        return f"no such folder {path.parent}"
+    known = {errno.ENOSPC: "the disk is full", errno.EACCES: "no permission", errno.EROFS: "the disk is read-only",
+             errno.EISDIR: "it is a folder", errno.ENOTDIR: f"{path.parent} is not a folder"}
+    return known.get(number or 0) or str(getattr(error, "strerror", None) or error)
+
+
+def part_of(path: Path, suffix: str | None = None) -> Path:
+    """Return the name a file has while it is being written: ``clip.mp4`` -> ``clip.part.mp4``."""
+    return path.with_name(f"{path.stem}.part{suffix or path.suffix}")
+
+
+@contextmanager
+def whole_file(path: Path, *also: type[Exception]) -> Iterator[Path]:
+    """Give a temporary name beside ``path`` to write to, and rename it to ``path`` when the block ends well.
+
+    The data is on the disk before the name is, so a power cut leaves the old file or the new one, not half of one.
+
+    Raises
+    ------
+    OutputError : the file cannot be written; the temporary one is removed and ``path`` is as it was
+    """
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    with writing(path, *also):
+        try:
+            yield temporary
+            with temporary.open("rb") as written:
+                os.fsync(written.fileno())
+            temporary.replace(path)
+        finally:
+            temporary.unlink(missing_ok=True)

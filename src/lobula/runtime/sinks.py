@@ -1,0 +1,40 @@
+"""What the runtime asks of an output: five calls, the same for a trace, a video, a page or a hook."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..types import Reading
+
+Picture = Callable[[], NDArray[np.uint8]]
+"""Gives the (h, w, 3) RGB picture a frame was made from; decoded when asked for, so ask only if it is drawn."""
+
+
+class Sink(Protocol):
+    """An output of a run. The cli makes it, the runtime calls it, and neither knows what it writes.
+
+    The order of calls is ``open``, then ``frame`` and ``event`` as they come, then ``close``. ``close`` is called
+    exactly once after ``open`` was tried, also when ``open``, ``frame`` or the source failed, and must leave a
+    readable file. Sinks are opened in the order they are given and closed in the reverse order, so that a report's
+    folder is made before what goes into it, and its page is written after.
+
+    Raises
+    ------
+    OutputError : from any of the calls, when the file cannot be written
+    """
+
+    def open(self, header: Mapping[str, Any]) -> None:
+        """Start. ``header`` is the NDJSON header, with ``thresholds`` (by neuron) and ``settings`` (rows) added."""
+
+    def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
+        """Take one frame's reading; ``picture`` is valid during this call and until the next ``frame``."""
+
+    def event(self, record: Mapping[str, Any]) -> None:
+        """Take one state or collision record; it may come before or after the ``frame`` it names."""
+
+    def close(self, summary: Mapping[str, Any]) -> None:
+        """Finish. ``summary`` is the NDJSON summary record."""

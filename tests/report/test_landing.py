@@ -1,0 +1,49 @@
+"""Files land whole or not at all."""
+
+from pathlib import Path
+
+import pytest
+
+from lobula.errors import OutputError
+from lobula.report.landing import part_of, whole_file, writing
+
+
+def test_part_keeps_the_suffix_or_takes_another() -> None:
+    assert part_of(Path("a/clip.mp4")) == Path("a/clip.part.mp4")
+    assert part_of(Path("a/t.npz"), ".csv") == Path("a/t.part.csv")
+
+
+def test_file_appears_whole(tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    with whole_file(path) as temporary:
+        temporary.write_text("new")
+        assert not path.exists()
+    assert path.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_failure_leaves_the_old_file_and_no_litter(tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    path.write_text("old")
+
+    def fail() -> None:
+        with whole_file(path) as temporary:
+            temporary.write_text("half")
+            raise RuntimeError
+
+    with pytest.raises(RuntimeError):
+        fail()
+    assert path.read_text() == "old"
+    assert list(tmp_path.iterdir()) == [path]
+
+
+@pytest.mark.parametrize(
+    ("error", "words"),
+    [(FileNotFoundError(2, ""), "no such folder out"), (OSError(28, ""), "the disk is full"),
+     (PermissionError(13, ""), "no permission"), (IsADirectoryError(21, ""), "it is a folder"),
+     (OSError(5, "Input/output error"), "Input/output error")],
+)
+def test_errors_become_one_line_that_names_the_file(error: OSError, words: str) -> None:
+    with pytest.raises(OutputError) as caught, writing(Path("out/t.csv")):
+        raise error
+    assert str(caught.value) == f"cannot write out/t.csv: {words}"
