@@ -1,0 +1,71 @@
+"""Pictures from a pipe on standard input: raw grey or YUV, or any stream that FFmpeg recognises."""
+
+from __future__ import annotations
+
+import sys
+from io import FileIO
+from typing import Any
+
+import av
+
+from ..errors import FrameSourceError, ParameterError
+from .video import VideoReader, open_container
+
+DEFAULT_RATE_HZ = 30.0
+
+RAW_FORMATS = {"gray8": "gray", "grey": "gray", "grey8": "gray"}
+"""Names a camera person uses, and FFmpeg's for the same; any other name is taken as FFmpeg's own."""
+
+
+def open_pipe(
+    pixel_format: str | None = None,
+    input_size: tuple[int, int] | None = None,
+    rate_hz: float | None = None,
+    threads: int = 1,
+    file: Any = None,
+) -> VideoReader:
+    """Open standard input (or ``file``, opened for reading bytes).
+
+    With ``pixel_format`` (gray8, yuv420p, nv12, yuyv422, rgb24, ...) and ``input_size`` (width, height) it holds raw
+    pictures one after another, at ``rate_hz``; a last one that is cut short is noted and left out. Without them it
+    must be a stream that says what it is, such as Matroska, MPEG-TS or YUV4MPEG.
+
+    Raises
+    ------
+    ParameterError : a pixel format FFmpeg does not know, or only one of the two given
+    FrameSourceError : nothing comes in, or it is no stream FFmpeg recognises
+    """
+    if (pixel_format is None) != (input_size is None):
+        raise ParameterError("raw pictures from a pipe: must be given both pixel_format and input_size")
+    # unbuffered: a read returns what has arrived, so a picture is not held back until the next one fills a buffer
+    source = FileIO(sys.stdin.fileno(), closefd=False) if file is None else file
+    if pixel_format is None or input_size is None:
+        allowed = "not a stream that FFmpeg recognises: raw pictures need pixel_format and input_size"
+        return VideoReader(open_container("-", source, allowed), "-", threads=threads, rate_hz=rate_hz)
+    how, picture_bytes = raw_options(pixel_format, input_size, rate_hz or DEFAULT_RATE_HZ)
+    allowed = f"no whole {input_size[0]} x {input_size[1]} {pixel_format} picture: must hold {picture_bytes} bytes each"
+    container = open_container("-", source, allowed, format="rawvideo", options=how, buffer_size=picture_bytes)
+    try:
+        return VideoReader(container, "-", cut_tail_is_fine=True)
+    except FrameSourceError as error:
+        raise FrameSourceError(f"-: {allowed}") from error
+
+
+def raw_options(pixel_format: str, input_size: tuple[int, int], rate_hz: float) -> tuple[dict[str, str], int]:
+    """Return FFmpeg's options for raw pictures and the bytes of one.
+
+    Raises
+    ------
+    ParameterError : FFmpeg does not know the pixel format
+    """
+    name = RAW_FORMATS.get(pixel_format, pixel_format)
+    width, height = input_size
+    try:
+        frame = av.VideoFrame(width, height, name)
+    except ValueError as error:
+        raise ParameterError(
+            f"pixel_format = {pixel_format!r}: must be gray8, yuv420p, nv12, yuyv422 or another name of FFmpeg's"
+        ) from error
+    bits = frame.format.padded_bits_per_pixel * width * height
+    options = {"pixel_format": name, "video_size": f"{width}x{height}", "framerate": f"{rate_hz:.6f}"}
+    return options, max(1, bits // 8)

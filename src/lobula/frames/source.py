@@ -1,0 +1,151 @@
+"""What every source has in common: pictures in, sampled frames out, the full picture on request."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from types import TracebackType
+from typing import Any, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..errors import FrameSourceError
+from ..types import Frame
+from .geometry import View
+from .luma import kind_of
+from .resize import Resizer
+from .sampler import Sampler
+from .selection import Picture, Selection, increasing
+
+
+class Reader(Protocol):
+    """Where pictures come from; one class for each kind of source.
+
+    ``first`` is the first picture's data, decoded when the reader was made, and is delivered again by ``pictures``.
+    ``rotation`` is what the container asks for, degrees clockwise. ``damaged`` counts pictures that could not be
+    decoded; ``notes`` are lines for the user about what is odd but no error.
+    """
+
+    name: str
+    fps: float
+    frame_count: int | None
+    rotation: int
+    first: Any
+    damaged: int
+    notes: list[str]
+
+    def pictures(self, start_s: float | None = None) -> Iterator[Picture]:
+        """Yield the pictures in order; those well before ``start_s`` may be left out."""
+
+    def close(self) -> None:
+        """Let go of the file, camera or connection; more than once does no harm."""
+
+
+class FrameSource(ABC):
+    """An open source of frames: a context manager and an iterator, once through.
+
+    ``name``; ``width`` and ``height`` of the working image; ``source_width`` and ``source_height`` of the upright
+    picture, and ``seen``, the (x, y, width, height) of it that the working image shows; ``fps`` as the container
+    estimates it, 0 where it says nothing; ``frame_count``, an estimate, or None; ``live``; ``dropped`` frames that a
+    live source had to leave out; ``damaged`` pictures that could not be decoded; ``notes`` for the user.
+    """
+
+    live = False
+
+    def __init__(self, reader: Reader, view: View, selection: Selection, resizer: Resizer | None = None) -> None:
+        self._reader = reader
+        self._selection = selection
+        self._sampler = Sampler(view, reader.first, reader.rotation, reader.name, resizer)
+        layout = self._sampler.layout
+        self.name = reader.name
+        self.width, self.height = view.size
+        self.source_width, self.source_height = layout.width, layout.height
+        self.seen = layout.seen
+        self.fps = reader.fps
+        self.frame_count = selection.expected(reader.frame_count, reader.fps)
+        self.dropped = 0
+        self._delivered = 0
+        self._last: Picture | None = None
+
+    @property
+    def damaged(self) -> int:
+        """Pictures that could not be decoded and were left out."""
+        return self._reader.damaged
+
+    @property
+    def notes(self) -> list[str]:
+        """Lines for the user about what is odd but no error."""
+        return list(self._reader.notes)
+
+    def picture(self) -> NDArray[np.uint8]:
+        """Return the last frame's whole picture, upright, (source_height, source_width, 3) RGB; made when asked for.
+
+        Raises
+        ------
+        FrameSourceError : no frame has been delivered yet
+        """
+        if self._last is None:
+            raise FrameSourceError(f"{self.name}: no picture before the first frame")
+        return self._sampler.rgb(self._last.data)
+
+    def with_pictures(self) -> Iterator[tuple[Frame, NDArray[np.uint8]]]:
+        """Yield every frame together with its whole picture, as ``picture`` gives it."""
+        for frame in self:
+            yield frame, self.picture()
+
+    def close(self) -> None:
+        """Let go of the source."""
+        self._reader.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def __iter__(self) -> Iterator[Frame]:
+        return self
+
+    @abstractmethod
+    def __next__(self) -> Frame:
+        """Return the next frame."""
+
+    def _enough(self) -> bool:
+        return self._delivered == self._selection.max_frames
+
+    def _deliver(self, picture: Picture) -> Frame:
+        if kind_of(picture.data) != self._sampler.kind:
+            self._sampler.adapt(picture.data, f"{self.name}: frame {picture.index}")
+        self._last = picture
+        self._delivered += 1
+        return Frame(self._sampler(picture.data), picture.time_s, picture.index)
+
+
+class FrameSequence(FrameSource):
+    """Every frame, in order: a file, a folder, a glob, a raw pipe, an array."""
+
+    def __init__(self, reader: Reader, view: View, selection: Selection, resizer: Resizer | None = None) -> None:
+        super().__init__(reader, view, selection, resizer)
+        self._pictures = selection.within(increasing(reader.pictures(selection.start_s), reader.name))
+
+    def __next__(self) -> Frame:
+        """Return the next frame.
+
+        Raises
+        ------
+        FrameSourceError : the source failed on the way, or the selection holds no frame
+        """
+        if self._enough():
+            raise StopIteration
+        picture = next(self._pictures, None)
+        if picture is not None:
+            return self._deliver(picture)
+        if not self._delivered:
+            wanted = f"from {self._selection.start_s or 0:g} s"
+            if self._selection.end_s is not None:
+                wanted += f" to {self._selection.end_s:g} s"
+            raise FrameSourceError(f"{self.name}: no frame {wanted}: must lie inside the source")
+        raise StopIteration
