@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
-from dataclasses import fields
 from functools import partial
 from typing import Any
 
 from ..errors import ParameterError
+from ..params import to_dict
 from .grating import grating
 from .light import flash, flicker, noise, still
 from .movie import Movie
@@ -49,5 +49,7 @@ def keywords(name: str) -> dict[str, Any]:
     if name.startswith("translating"):
         del own["direction"]
     settings = MovingObject if name in _MOVING else View
-    shared = {f.name: f.default for f in fields(settings) if not (name == "noise" and f.name == "noise_sigma")}
+    shared = to_dict(settings())
+    if name == "noise":
+        del shared["noise_sigma"]
     return own | {"scene": "plain"} | shared

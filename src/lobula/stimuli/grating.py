@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import ParameterError
 from .movie import Movie
-from .view import Luminance, View, ViewSettings, film, require_between, with_scene
+from .view import Luminance, View, ViewSettings, film, given, require_between
 
 
 def grating(*, direction: Literal["right", "left", "down", "up"] = "right", period_px: float | None = None,
@@ -27,7 +27,7 @@ def grating(*, direction: Literal["right", "left", "down", "up"] = "right", peri
     ------
     ParameterError : a number out of range, or both ``period_px`` and ``period_deg``
     """
-    view = View(**with_scene(settings))
+    view = given(View(), settings)
     if direction not in ("right", "left", "down", "up"):
         raise ParameterError(f"stimuli.grating: direction {direction!r}: must be right, left, down or up")
     if wave not in ("sine", "square"):

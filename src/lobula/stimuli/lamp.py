@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..params import Params, param
+from ..params import Params, param, to_dict
 from .movie import Movie, as_images
 from .view import require_between
 
@@ -43,13 +43,14 @@ class Flash(Params):
     at_s: float = param(1.5, "s", "when it happens", low=0, high=3600, source="chosen")
     gain: float = param(1.0, "", "factor on every pixel", low=0, high=100, source="chosen")
     offset_grey: float = param(0.0, "grey", "added to every pixel", low=-255, high=255, source="chosen")
-    lasts_s: float = param(math.inf, "s", "length of a pulse; infinite: a step", low=0, source="chosen")
-    decay_s: float = param(math.inf, "s", "time constant of the return; infinite: none", low=1e-6, source="chosen")
+    lasts_s: float = param(0.0, "s", "length of a pulse; 0: a step that stays", low=0, high=3600, source="chosen")
+    decay_s: float = param(0.0, "s", "time constant of the return; 0: none", low=0, high=3600, source="chosen")
 
     def light(self, times_s: Course) -> tuple[Course, Course]:
         """Return the factor and the added grey at ``times_s``, each of its shape."""
         t = times_s - self.at_s + 1e-9  # a picture taken at the very instant already shows the change
-        strength = np.where((t >= 0) & (t < self.lasts_s), np.exp(-np.maximum(t, 0.0) / self.decay_s), 0.0)
+        lit = (t >= 0) & (t < self.lasts_s) if self.lasts_s else t >= 0
+        strength = np.where(lit, np.exp(-np.maximum(t, 0.0) / self.decay_s) if self.decay_s else 1.0, 0.0)
         return 1 + (self.gain - 1) * strength, self.offset_grey * strength
 
 
@@ -67,7 +68,7 @@ def with_flicker(movie: Movie, *, hz: float = 10.0, amplitude: float = 0.1, phas
 
 
 def with_flash(movie: Movie, *, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 0.0,
-               lasts_s: float = math.inf, decay_s: float = math.inf) -> Movie:
+               lasts_s: float = 0.0, decay_s: float = 0.0) -> Movie:
     """Return ``movie`` with one sudden change of light; ``Flash`` says what each number means.
 
     Raises
@@ -94,5 +95,5 @@ def _relit(movie: Movie, change: Flicker | Flash, name: str) -> Movie:
     images = np.empty_like(movie.images)
     for k, (gain, offset) in enumerate(zip(*change.light(movie.times_s), strict=True)):
         images[k] = as_images(movie.images[k] * gain + offset, movie.images.dtype)
-    own: dict[str, Any] = {f"{name}_{key}": value for key, value in vars(change).items()}
+    own: dict[str, Any] = {f"{name}_{key}": value for key, value in to_dict(change).items()}
     return replace(movie, images=images, settings=dict(movie.settings) | own)

@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Unpack
 
 import numpy as np
 
 from ..errors import ParameterError
+from ..params import to_dict
 from .lamp import Flash, Flicker
 from .movie import Movie
-from .view import Luminance, View, ViewSettings, film, wall, with_scene
+from .view import Luminance, View, ViewSettings, film, given, wall
 
 
 def still(*, duration_s: float = 3.0, **settings: Unpack[ViewSettings]) -> Movie:
     """Return the still background for ``duration_s``. ``settings``: see ``View``."""
-    view = View(**with_scene(settings))
+    view = given(View(), settings)
     behind = wall(view)
     return film(view, duration_s, lambda _: behind, kind="still", settings={"duration_s": duration_s})
 
@@ -51,8 +51,8 @@ def flicker(*, hz: float = 10.0, amplitude: float = 0.1, phase_deg: float = 0.0,
     return _lit(lamp, "flicker", duration_s, settings)
 
 
-def flash(*, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 60.0, lasts_s: float = math.inf,
-          decay_s: float = math.inf, duration_s: float = 3.0, **settings: Unpack[ViewSettings]) -> Movie:
+def flash(*, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 60.0, lasts_s: float = 0.0,
+          decay_s: float = 0.0, duration_s: float = 3.0, **settings: Unpack[ViewSettings]) -> Movie:
     """Return the still background with one sudden change of light: a step, a pulse, or one that fades.
 
     ``Flash`` says what each number means; ``settings``: see ``View``.
@@ -66,11 +66,11 @@ def flash(*, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 60.0, la
 
 
 def _lit(change: Flicker | Flash, kind: str, duration_s: float, settings: ViewSettings) -> Movie:
-    view = View(**with_scene(settings))
+    view = given(View(), settings)
     behind = wall(view)
 
     def light(time_s: float) -> Luminance:
         gain, offset = change.light(np.asarray(time_s))
         return behind * gain + offset
 
-    return film(view, duration_s, light, kind=kind, settings=asdict(change) | {"duration_s": duration_s})
+    return film(view, duration_s, light, kind=kind, settings=to_dict(change) | {"duration_s": duration_s})

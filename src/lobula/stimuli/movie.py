@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -40,9 +39,6 @@ class Movie:
     kind: str
     rate_hz: float
     settings: Mapping[str, Any]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "settings", MappingProxyType(dict(self.settings)))
 
     def __len__(self) -> int:
         return len(self.images)

@@ -9,7 +9,7 @@ from typing import Any, Literal, Unpack
 from ..errors import ParameterError
 from .movie import Movie
 from .moving_object import MovingObject, ObjectSettings, draw
-from .view import Luminance, film, require_between, wall, with_scene
+from .view import Luminance, film, given, require_between, wall
 
 Path = Callable[[float], tuple[float, float]]
 """Seconds of travel -> (x_cm to the right of the optical axis, z_cm ahead of the lens)."""
@@ -120,7 +120,7 @@ def angular(*, angle_deg: float = -30.0, speed_cm_s: float = 8.0, start_cm: floa
 
 
 def _object(settings: ObjectSettings) -> MovingObject:
-    return MovingObject(**with_scene(settings))
+    return given(MovingObject(), settings)
 
 
 def _speed(name: str, speed_cm_s: float) -> float:

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
-from typing import Any, Literal, TypedDict
+from dataclasses import dataclass
+from typing import Any, Literal, TypedDict, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import MIN_HEIGHT, MIN_WIDTH
 from ..errors import ParameterError
-from ..params import Params, param
+from ..params import Params, param, to_dict, with_settings
 from .movie import Movie, as_images
 
 Luminance = NDArray[np.float64]
@@ -47,6 +47,9 @@ class View(Params):
         return self.width / 2 / math.tan(math.radians(self.view_deg) / 2)
 
 
+AnyView = TypeVar("AnyView", bound=View)
+
+
 class ViewSettings(TypedDict, total=False):
     """The keywords every movie takes; ``View`` says what each means, its unit, default and range."""
 
@@ -73,18 +76,19 @@ SCENES: dict[str, dict[str, Any]] = {
 """What ``scene=`` sets before the other keywords: ``arena`` is a striped wall, a dark floor and a noisy camera."""
 
 
-def with_scene(settings: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the keywords with ``scene`` replaced by what it stands for; keywords given beside it win.
+def given(defaults: AnyView, settings: Mapping[str, Any]) -> AnyView:
+    """Return ``defaults`` with ``scene`` applied, then the other keywords of ``settings``, which win over it.
 
     Raises
     ------
-    ParameterError : no such scene
+    ParameterError : no such scene or keyword, or a value out of range
     """
     own = dict(settings)
     name = own.pop("scene", "plain")
     if name not in SCENES:
         raise ParameterError(f"stimuli: scene {name!r}: must be one of {', '.join(SCENES)}")
-    return SCENES[name] | own
+    view: AnyView = with_settings(defaults, SCENES[name] | own, "given", "stimuli: ")
+    return view
 
 
 def require_between(where: str, value: float, low: float, high: float, unit: str) -> float:
@@ -162,4 +166,4 @@ def film(view: View, duration_s: float, light: Callable[[float], Luminance], *, 
         if view.noise_sigma:
             luminance = luminance + view.noise_sigma * rng.standard_normal(luminance.shape, dtype=np.float32)
         image[:] = as_images(luminance, dtype)
-    return Movie(images, times_s, contact_s, kind, view.rate_hz, asdict(view) | dict(settings))
+    return Movie(images, times_s, contact_s, kind, view.rate_hz, to_dict(view) | dict(settings))
