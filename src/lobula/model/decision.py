@@ -39,7 +39,9 @@ class DecisionParams(Params):
     )
 
 
-class _Entry(NamedTuple):
+class Entry(NamedTuple):
+    """One step in the window: its time and its weighted spikes."""
+
     time_s: float
     lgmd1: float
     lgmd2: float
@@ -55,7 +57,7 @@ class Decision:
 
     def reset(self) -> None:
         """Forget every spike."""
-        self.window: deque[_Entry] = deque()
+        self.window: deque[Entry] = deque()
         self.held_s: float | None = None
 
     def clear(self) -> None:
@@ -71,7 +73,7 @@ class Decision:
         Source: paper Sec. II-E and Algorithm 1; window and count MODEL.md 1.8.
         """
         lptc = max(spikes.lptc_r, spikes.lptc_l)
-        self.window.append(_Entry(time_s, weight * spikes.lgmd1, weight * spikes.lgmd2, weight * lptc))
+        self.window.append(Entry(time_s, weight * spikes.lgmd1, weight * spikes.lgmd2, weight * lptc))
         if self.holds(time_s):
             self.held_s = time_s
 

@@ -6,7 +6,7 @@ either.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -22,6 +22,7 @@ from .lamina.on_off import split_on_off
 from .neurons.lgmd import Lgmd, LgmdParams
 from .neurons.lptc import Lptc, LptcParams
 from .retina import FlashParams, Light, change_statistics, find_flash, frame_difference
+from .state import StateDict, load_state_dict, state_dict
 
 LGMD_MAPS = ("inhibition_on", "inhibition_off", "summation", "grouped")
 TAPS = (
@@ -63,6 +64,14 @@ class ReferenceNetwork:
         self._rest()
         self.decision.reset()
         self.turned_s: float | None = None
+
+    def state_dict(self) -> StateDict:
+        """Return a copy of everything it remembers; ``state.NAMES`` lists the entries."""
+        return state_dict(self)
+
+    def load_state_dict(self, state: Mapping[str, Any]) -> None:
+        """Continue from a ``state_dict`` of either engine, made with the same settings and size."""
+        load_state_dict(self, state)
 
     def _rest(self) -> None:
         """Empty every layer; what the decision remembers stays, so that a gap does not cut off an event."""

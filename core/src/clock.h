@@ -1,0 +1,16 @@
+/* model/clock.py: what a frame's own stamp means to a model that is defined at 30 steps a second. */
+#ifndef LOBULA_CLOCK_H
+#define LOBULA_CLOCK_H
+
+#include "lobula.h"
+
+typedef enum { BEAT_START, BEAT_WAIT, BEAT_TICK } beat;
+
+/* What the frame stamped `time_s` is; remembers it. */
+beat clock_beat(const lobula_clock_params *p, lobula_scalars *now, double time_s);
+
+/* The step's length in ms, or a negative number where the frame only repeats the one before. */
+double clock_advances(const lobula_clock_params *p, lobula_scalars *now, double time_s, double mean_abs,
+                      double max_abs);
+
+#endif

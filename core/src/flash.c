@@ -1,0 +1,23 @@
+#include "flash.h"
+
+#include <math.h>
+
+int find_flash(const kernels *k, extent e, picture image, picture previous, const change_summary *about,
+               const lobula_flash_params *p, change_of_light *light) {
+    if (p->enabled == 0.0 || fabs(about->mean) < p->min_change_grey) return 0;
+    int64_t brighter, darker;
+    k->coverage(e, image, previous, &brighter, &darker);
+    double together = (double)(brighter > darker ? brighter : darker) / ((double)e.width * (double)e.height);
+    if (together < p->min_coverage) return 0;
+
+    double limit = p->trim * about->mean_abs;
+    light_sums s = k->light(e, image, previous, limit);
+    double new_mean = s.new_sum / s.count, old_mean = s.old_sum / s.count;
+    double variance = s.old_old / s.count - old_mean * old_mean;
+    double covariance = s.new_old / s.count - new_mean * old_mean;
+    light->gain = variance > 1.0 ? covariance / variance : 1.0;
+    light->offset = new_mean - light->gain * old_mean;
+    if (light->gain < p->min_gain || light->gain > p->max_gain) return 0;
+    double rest = k->light_rest(e, image, previous, limit, light->gain, light->offset);
+    return rest <= (1.0 - p->min_explained) * s.change_change;
+}

@@ -1,0 +1,43 @@
+/* Where everything lies in the caller's memory. */
+#ifndef LOBULA_LAYOUT_H
+#define LOBULA_LAYOUT_H
+
+#include "lobula.h"
+
+#define ROW_FLOATS 16 /* rows start on multiples of this, whatever the instruction set: states are exchangeable */
+
+enum { CHANGE, ADAPTED, SOURCES }; /* what an LGMD can read */
+enum { ON, OFF };
+
+/* Planes of the state, in the order a row of each is stored; -1 where the settings need none. All rows of the planes
+ * at one y lie side by side, so that the step walks through one stream of memory. */
+typedef struct {
+    int luma, on, off, adapted, change;
+    int count;
+} planes;
+
+/* Everything that follows from the settings and the size alone. Sizes in floats unless they say bytes. */
+typedef struct {
+    int width, height;
+    int stride;   /* of a row without margins */
+    int margin;   /* left and right of a row that a filter looks along */
+    int long_row; /* such a row with its margins */
+    planes planes;
+    int inner_radius, outer_radius; /* of the DoG; 0 where it is off */
+    int spacing[2];                 /* neighbour_px of each LGMD */
+    int reads[2];                   /* source of each LGMD */
+    int ring;                       /* rows of the rings that inhibition and grouping keep */
+    int window_capacity;
+    size_t record;          /* one row of every plane */
+    size_t planes_at;       /* offset of the first row in the state, bytes */
+    size_t kernel_at;       /* offset of the DoG weights, bytes */
+    size_t window_at;       /* offset of the decision's entries, bytes */
+    size_t state_bytes;
+    size_t scratch_bytes; /* of one frame at work, without its taps */
+    size_t tap_bytes;     /* more rows, for the inhibition taps */
+} layout;
+
+/* Fill `l`, or say that the size or a setting cannot be. */
+int layout_init(layout *l, const lobula_params *p, int width, int height);
+
+#endif

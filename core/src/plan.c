@@ -1,0 +1,117 @@
+#include "plan.h"
+
+#include <math.h>
+#include <string.h>
+
+/* model.filters */
+static double low_pass_share(double dt_ms, double tau_ms) { return dt_ms / (dt_ms + tau_ms); }
+
+/* Kernel W of Eq. (1) split into what meets E now and what meets it one step ago: centre, nearest, diagonal. */
+typedef struct {
+    double now[3], then[3];
+} rings;
+
+static rings rings_of(const lobula_inhibition_params *p, double dt_ms) {
+    double weight[3] = {p->centre_weight, p->nearest_weight, p->diagonal_weight};
+    double tau_ms[3] = {p->centre_ms, p->nearest_ms, p->diagonal_ms};
+    rings r;
+    for (int k = 0; k < 3; k++) {
+        r.now[k] = weight[k] * low_pass_share(dt_ms, tau_ms[k]);
+        r.then[k] = weight[k] - r.now[k];
+    }
+    return r;
+}
+
+/* The weights of gain (E - bias I); with gain 0 and bias 1, of -I. */
+static inhibition_set weigh(const rings *r, double excitation, double inhibition) {
+    inhibition_set q = {
+        .own = {(float)(excitation - inhibition * r->now[0]), (float)(-inhibition * r->now[1]),
+                (float)(-inhibition * r->then[0]), (float)(-inhibition * r->then[1])},
+        .across = {(float)(inhibition * r->now[1]), (float)(inhibition * r->now[2]), (float)(inhibition * r->then[1]),
+                   (float)(inhibition * r->then[2])},
+    };
+    return q;
+}
+
+/* Channels of both LGMDs that are computed alike are computed once. */
+static int find_or_add(step_plan *p, inhibition_set q) {
+    for (int i = 0; i < p->sets; i++) {
+        const inhibition_set *known = &p->set[i];
+        if (known->source == q.source && known->channel == q.channel && known->spacing == q.spacing &&
+            memcmp(known->own, q.own, sizeof q.own) == 0 && memcmp(known->across, q.across, sizeof q.across) == 0)
+            return i;
+    }
+    p->set[p->sets] = q;
+    return p->sets++;
+}
+
+/* A cell whose own inhibition alone is as large as its excitation never speaks, whatever the picture. */
+static int silenced(const rings *r, double bias) { return bias * r->now[0] >= 1.0001; }
+
+static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double dt_ms, double arousal) {
+    const lobula_lgmd_params *q = j ? &s->params.lgmd2 : &s->params.lgmd1;
+    const lobula_inhibition_params *inhibition[2] = {&q->on, &q->off};
+    double gain[2] = {q->on_gain, q->off_gain}, bias[2];
+    rings r[2];
+    int speaks[2];
+    for (int c = 0; c < 2; c++) {
+        r[c] = rings_of(inhibition[c], dt_ms);
+        bias[c] = inhibition[c]->bias > arousal ? inhibition[c]->bias : arousal;
+        speaks[c] = !silenced(&r[c], bias[c]);
+    }
+    lgmd_plan *lgmd = &p->lgmd[j];
+    int product = speaks[ON] && speaks[OFF] && q->product_gain != 0.0;
+    for (int c = 0; c < 2; c++) {
+        lgmd->gain[c] = (float)gain[c];
+        lgmd->set[c] = NO_SET;
+        if (!speaks[c] || (!product && gain[c] == 0.0)) continue;
+        inhibition_set set = weigh(&r[c], product ? 1.0 : gain[c], (product ? 1.0 : gain[c]) * bias[c]);
+        set.source = s->layout.reads[j];
+        set.channel = c;
+        set.spacing = s->layout.spacing[j];
+        lgmd->set[c] = find_or_add(p, set);
+    }
+    lgmd->gain[2] = (float)q->product_gain;
+    int both = lgmd->set[ON] != NO_SET && lgmd->set[OFF] != NO_SET;
+    int one = lgmd->set[ON] != NO_SET || lgmd->set[OFF] != NO_SET;
+    lgmd->kind = product ? SUM_PRODUCT : both ? SUM_BOTH : one ? SUM_ONE : SUM_NONE;
+    lgmd->grouping = q->grouping.enabled != 0.0;
+    lgmd->threshold_grey = q->grouping.threshold_grey;
+    lgmd->floor_grey = q->grouping.floor_grey;
+    lgmd->divisor = q->grouping.divisor;
+
+    for (int c = 0; c < 2 && p->taps; c++) {
+        float *map = p->taps[LOBULA_TAP_LGMD1_INHIBITION_ON + 4 * j + c];
+        if (!map) continue;
+        inhibition_set set = weigh(&r[c], 0.0, 1.0);
+        set.source = s->layout.reads[j];
+        set.channel = c;
+        set.spacing = s->layout.spacing[j];
+        p->tap_set[p->tap_sets] = set;
+        p->tap_set_out[p->tap_sets++] = map;
+    }
+}
+
+static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double mean_change, double dt_ms) {
+    double share = low_pass_share(dt_ms, p->change_ms);
+    double smooth = share * mean_change + (1.0 - share) * now->change_before;
+    now->change_before = mean_change;
+    return smooth / p->change_scale_grey;
+}
+
+void plan_step(lobula_state *s, planned_step *step, double mean_change) {
+    const lobula_params *q = &s->params;
+    const lobula_emd_params *emd = &q->lptc.emd;
+    step_plan *p = &step->rows;
+    p->residual = (float)pow(q->lamina.on_off.residual, step->ticks);
+    p->fdsr_share = (float)(1.0 - low_pass_share(step->dt_ms, q->lamina.fdsr.rise_ms));
+    p->dead_zone = (float)q->lamina.dog.dead_zone_grey;
+    p->spans = (int)emd->spans;
+    for (int i = 0; i < p->spans; i++) {
+        p->span[i] = (int)emd->spans_px[i];
+        p->span_share[i] = (float)(1.0 - low_pass_share(step->dt_ms, emd->delays_ms[i]));
+    }
+    p->sets = p->tap_sets = 0;
+    plan_lgmd(s, p, 0, step->dt_ms, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, step->dt_ms));
+    plan_lgmd(s, p, 1, step->dt_ms, arousal(&q->lgmd2, &s->now.lgmd2, mean_change, step->dt_ms));
+}

@@ -1,0 +1,134 @@
+/* model/retina.py: the change of the picture, a row at a time, and what one look at all of it tells. */
+#ifndef LOBULA_RETINA_H
+#define LOBULA_RETINA_H
+
+#include "picture.h"
+
+/* model.retina.frame_difference */
+INLINE vf frame_difference(vf now, vf luma, const step_plan *p) {
+    if (p->flash) luma = vf_all(p->gain) * luma + vf_all(p->offset);
+    return (now - luma) * vf_all(p->scale);
+}
+
+typedef struct {
+    vf sum, magnitude, highest;
+} row_change;
+
+INLINE void add_change(row_change *r, vf change) {
+    vf magnitude = vf_abs(change);
+    r->sum += change;
+    r->magnitude += magnitude;
+    r->highest = vf_max(r->highest, magnitude);
+}
+
+/* model.retina.change_statistics, less the counts */
+INLINE change_summary summarise_as(extent e, picture image, int type, picture previous, int type_before) {
+    vd sum = {0}, magnitude = {0};
+    vf highest = vf_all(0.0f);
+    int whole = e.width / LANES * LANES;
+    for (int y = 0; y < e.height; y++) {
+        const char *now = picture_row(&image, y), *before = picture_row(&previous, y);
+        row_change r = {vf_all(0.0f), vf_all(0.0f), highest};
+        for (int x = 0; x < whole; x += LANES) add_change(&r, pixels_at(now, type, x) - pixels_at(before, type_before, x));
+        if (whole < e.width)
+            add_change(&r, last_pixels(now, type, whole, e.width) - last_pixels(before, type_before, whole, e.width));
+        vd_add(&sum, r.sum);
+        vd_add(&magnitude, r.magnitude);
+        highest = r.highest;
+    }
+    double pixels = (double)e.width * (double)e.height;
+    change_summary s = {vd_total(&sum) / pixels, vd_total(&magnitude) / pixels, (double)vf_highest(highest)};
+    return s;
+}
+
+static change_summary summarise(extent e, picture image, picture previous) {
+    if (image.type == LOBULA_UINT8 && previous.type == LOBULA_UINT8)
+        return summarise_as(e, image, LOBULA_UINT8, previous, LOBULA_UINT8);
+    if (image.type == LOBULA_UINT8) return summarise_as(e, image, LOBULA_UINT8, previous, LOBULA_FLOAT32);
+    return summarise_as(e, image, LOBULA_FLOAT32, previous, LOBULA_FLOAT32);
+}
+
+INLINE double pixel(const picture *p, int y, int x) {
+    const char *row = picture_row(p, y);
+    return p->type == LOBULA_UINT8 ? (double)((const uint8_t *)row)[x] : (double)((const float *)(const void *)row)[x];
+}
+
+/* The rest of model.retina.change_statistics; asked for only where the mean change could be a flash. */
+static void coverage(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker) {
+    *brighter = *darker = 0;
+    for (int y = 0; y < e.height; y++)
+        for (int x = 0; x < e.width; x++) {
+            float change = (float)pixel(&image, y, x) - (float)pixel(&previous, y, x);
+            *brighter += change > 0.5f;
+            *darker += change < -0.5f;
+        }
+}
+
+/* The sums behind the least squares of model.retina.find_flash. */
+static light_sums light(extent e, picture image, picture previous, double limit) {
+    light_sums s = {0};
+    for (int y = 0; y < e.height; y++)
+        for (int x = 0; x < e.width; x++) {
+            double new_ = pixel(&image, y, x), old = pixel(&previous, y, x), change = new_ - old;
+            if (fabs(change) > limit) continue;
+            s.count += 1.0;
+            s.new_sum += new_;
+            s.old_sum += old;
+            s.old_old += old * old;
+            s.new_old += new_ * old;
+            s.change_change += change * change;
+        }
+    return s;
+}
+
+static double light_rest(extent e, picture image, picture previous, double limit, double gain, double offset) {
+    double rest = 0.0;
+    for (int y = 0; y < e.height; y++)
+        for (int x = 0; x < e.width; x++) {
+            double new_ = pixel(&image, y, x), old = pixel(&previous, y, x);
+            double error = new_ - gain * old - offset;
+            if (fabs(new_ - old) <= limit) rest += error * error;
+        }
+    return rest;
+}
+
+static double lit_change(extent e, picture image, picture previous, float gain, float offset) {
+    double sum = 0.0;
+    for (int y = 0; y < e.height; y++)
+        for (int x = 0; x < e.width; x++)
+            sum += fabs((double)((float)pixel(&image, y, x) - (gain * (float)pixel(&previous, y, x) + offset)));
+    return sum / ((double)e.width * (double)e.height);
+}
+
+static void tick_add(extent e, picture image, float *sum) {
+    for (int y = 0; y < e.height; y++, sum += e.width)
+        for (int x = 0; x < e.width; x++) sum[x] += (float)pixel(&image, y, x);
+}
+
+static void tick_mean(extent e, picture image, float *sum, float frames) {
+    for (int y = 0; y < e.height; y++, sum += e.width)
+        for (int x = 0; x < e.width; x++) sum[x] = (sum[x] + (float)pixel(&image, y, x)) / frames;
+}
+
+static void set_luma(const layout *l, picture image, float *planes) {
+    for (int y = 0; y < l->height; y++) {
+        float *luma = planes + (size_t)y * l->record + (size_t)l->planes.luma * (size_t)l->stride;
+        for (int x = 0; x < l->width; x++) luma[x] = (float)pixel(&image, y, x);
+    }
+}
+
+/* Floats in 0..255 are, as integers, at most 255.0f; NaN, infinity and negatives are more. -0 counts as outside. */
+static int in_range(extent e, picture image) {
+    uint32_t most = 0;
+    for (int y = 0; y < e.height; y++) {
+        const char *row = picture_row(&image, y);
+        for (int x = 0; x < e.width; x++) {
+            uint32_t bits;
+            memcpy(&bits, row + (ptrdiff_t)x * 4, 4);
+            most = bits > most ? bits : most;
+        }
+    }
+    return most <= 0x437f0000u;
+}
+
+#endif

@@ -1,0 +1,97 @@
+/* The rows at work: rings of a few rows each, so that a step never leaves the cache. */
+#ifndef LOBULA_SCRATCH_H
+#define LOBULA_SCRATCH_H
+
+#include "state.h"
+#include "sweep.h"
+#include "vector.h"
+
+/* Rows that were just written are read at unaligned places by the filters; reading them one row later lets the
+ * stores settle. */
+#define SETTLE 1
+
+/* `rows` rows of `stride` floats; row y is kept until row y + rows comes. */
+typedef struct {
+    float *first;
+    unsigned rows;
+    int stride;
+} ring;
+
+enum { E_ON, E_OFF, E_ON_BEFORE, E_OFF_BEFORE, E_ROWS };
+
+typedef struct {
+    ring change;
+    ring inner, outer;         /* horizontally blurred */
+    ring adapted[2];           /* zero margins */
+    ring before[2];            /* the same one step ago, where the state does not keep it apart */
+    ring excitation[SOURCES][E_ROWS];
+    ring own[MAX_SETS], across[MAX_SETS], part[MAX_SETS];
+    ring summation[2];
+    ring column[2]; /* three rows of the summation, added up */
+    ring tap_own[MAX_SETS], tap_across[MAX_SETS];
+    float *list[2]; /* vectors of grouped cells that may reach the threshold */
+    size_t listed[2];
+    float strongest[2];   /* largest 3 x 3 sum so far */
+    vd hs;
+    vd total[2];
+} scratch;
+
+static inline float *row_of(const ring *r, int y) { return r->first + (size_t)((unsigned)y % r->rows) * (size_t)r->stride; }
+
+static inline int clamp(int y, int height) { return y < 0 ? 0 : y >= height ? height - 1 : y; }
+
+/* The workspace as it is dealt out; without a base it is only measured. */
+typedef struct {
+    char *base;
+    size_t used;
+} memory;
+
+static inline float *take(memory *m, size_t floats) {
+    float *at = m->base ? (float *)(void *)(m->base + m->used) : NULL;
+    m->used += floats * sizeof(float);
+    return at;
+}
+
+static inline ring take_ring(memory *m, int rows, int stride, int margin) {
+    float *first = take(m, (size_t)rows * (size_t)stride);
+    ring r = {first ? first + margin : NULL, (unsigned)rows, stride};
+    return r;
+}
+
+static inline ring take_long(memory *m, const layout *l, int rows) { return take_ring(m, rows, l->long_row, l->margin); }
+
+static inline ring take_short(memory *m, const layout *l, int rows) { return take_ring(m, rows, l->stride, 0); }
+
+/* The rows of one frame at work. */
+static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
+    s->change = take_long(m, l, 1 + SETTLE);
+    s->inner = take_short(m, l, l->inner_radius + l->outer_radius + 1); /* the outer field waits longer */
+    s->outer = take_short(m, l, 2 * l->outer_radius + 1);
+    for (int c = 0; c < 2; c++) {
+        s->adapted[c] = take_long(m, l, 1 + SETTLE);
+        s->before[c] = take_long(m, l, l->planes.adapted < 0 ? 1 + SETTLE : 0);
+    }
+    for (int source = 0; source < SOURCES; source++) {
+        int used = l->reads[0] == source || l->reads[1] == source;
+        for (int k = 0; k < E_ROWS; k++) s->excitation[source][k] = take_long(m, l, used ? 1 + SETTLE : 0);
+    }
+    for (int k = 0; k < MAX_SETS; k++) {
+        s->own[k] = take_short(m, l, l->ring);
+        s->across[k] = take_short(m, l, l->ring);
+        s->part[k] = take_short(m, l, l->ring);
+    }
+    for (int j = 0; j < 2; j++) {
+        s->summation[j] = take_short(m, l, l->ring);
+        s->column[j] = take_long(m, l, 1 + SETTLE);
+        s->list[j] = take(m, (size_t)l->height * (size_t)l->stride + ROW_FLOATS);
+    }
+}
+
+static inline void scratch_taps(const layout *l, memory *m, scratch *s) {
+    for (int k = 0; k < MAX_SETS; k++) {
+        s->tap_own[k] = take_short(m, l, l->ring);
+        s->tap_across[k] = take_short(m, l, l->ring);
+    }
+}
+
+#endif

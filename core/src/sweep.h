@@ -1,0 +1,102 @@
+/* One pass over the picture: what a step is told before it starts, and what it leaves behind. */
+#ifndef LOBULA_SWEEP_H
+#define LOBULA_SWEEP_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "layout.h"
+
+#define MAX_SETS 4     /* both channels of both LGMDs */
+#define NO_SET (-1)
+#define MAX_FRAMES 16 /* at once */
+
+/* Where a picture lies. */
+typedef struct {
+    const char *pixels;
+    ptrdiff_t row_bytes;
+    int type;
+} picture;
+
+/* [g (E - w I)]+ of one channel as two rows of weights on (E, sides of E, E', sides of E'), E' being one step ago and
+ * "sides" the sum of the neighbours to the left and right: what a row gives to its own cells, and what it takes from
+ * the cells above and below. */
+typedef struct {
+    int source, channel, spacing;
+    float own[4], across[4];
+} inhibition_set;
+
+enum { SUM_NONE, SUM_ONE, SUM_BOTH, SUM_PRODUCT };
+
+/* One LGMD: which sets it adds up, how, and how it groups. */
+typedef struct {
+    int kind;
+    int set[2];    /* ON, OFF; NO_SET where a channel cannot speak */
+    float gain[3]; /* only for SUM_PRODUCT: elsewhere the sets carry their gains */
+    int grouping;
+    double threshold_grey, floor_grey, divisor;
+} lgmd_plan;
+
+/* Everything known about one step before its rows are looked at. */
+typedef struct {
+    picture image;
+    float scale, gain, offset; /* P = scale (image - (gain luma + offset)) */
+    int flash;
+    float residual, fdsr_share, dead_zone;
+    int spans, span[LOBULA_MAX_SPANS];
+    float span_share[LOBULA_MAX_SPANS];
+    int sets;
+    inhibition_set set[MAX_SETS];
+    lgmd_plan lgmd[2];
+    int tap_sets;
+    inhibition_set tap_set[MAX_SETS];
+    float *tap_set_out[MAX_SETS];
+    float *const *taps; /* NULL: none */
+    /* Left behind: the net motion, and the sum of each LGMD's grouped cells. */
+    double hs, total[2];
+} step_plan;
+
+typedef struct {
+    double mean, mean_abs, max_abs;
+} change_summary;
+
+typedef struct {
+    int width, height;
+} extent;
+
+/* Sums over the pixels whose change is at most `limit`. */
+typedef struct {
+    double count, new_sum, old_sum, old_old, new_old, change_change;
+} light_sums;
+
+struct resize_plan;
+
+/* The loops over pixels, once for each instruction set. A picture `previous` may be the luma plane. */
+typedef struct {
+    const char *name;
+    int (*runs)(void);
+    size_t (*scratch_bytes)(const layout *l);
+    size_t (*tap_bytes)(const layout *l);
+    /* mean, mean of magnitudes, largest magnitude of image - previous */
+    change_summary (*summarise)(extent e, picture image, picture previous);
+    /* pixels brighter, and darker, by more than half a grey level */
+    void (*coverage)(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker);
+    light_sums (*light)(extent e, picture image, picture previous, double limit);
+    double (*light_rest)(extent e, picture image, picture previous, double limit, double gain, double offset);
+    /* mean |image - (gain previous + offset)| */
+    double (*lit_change)(extent e, picture image, picture previous, float gain, float offset);
+    /* tick mean: image joins sum; or sum becomes (sum + image) / frames */
+    void (*tick_add)(extent e, picture image, float *sum);
+    void (*tick_mean)(extent e, picture image, float *sum, float frames);
+    void (*set_luma)(const layout *l, picture image, float *planes);
+    /* Take `n` frames through all rows together. */
+    void (*sweep)(const layout *l, const float *kernel, float *planes, char *workspace, step_plan *plans, int n);
+    int (*in_range)(extent e, picture image);
+    /* `out` is the area average of the cropped picture; `plan` is a resize_plan */
+    void (*area_average)(struct resize_plan *plan, picture crop, float *out);
+} kernels;
+
+/* The table of instruction set `isa`, or NULL. */
+const kernels *kernels_of(int isa);
+
+#endif

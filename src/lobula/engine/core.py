@@ -1,0 +1,224 @@
+"""The network through the C core: same methods, same results, interchangeable state."""
+
+from __future__ import annotations
+
+import ctypes
+import math
+import struct
+from collections.abc import Collection, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.network import TAPS, NetworkParams
+from ..model.state import NUMBERS, PLANES, TIMES, StateDict, check_state
+from ..types import NEURONS, STATES, TRACE_DTYPE, Image, Reading, Spikes
+from .library import available, isa_index, library
+from .structures import Images, Net, Scalars, core_params
+
+ALIGN = 64
+NEED_TICK_SUM = -3
+TYPES = {np.dtype(np.uint8): 0, np.dtype(np.float32): 1}
+COPIED_BYTES = 1 << 18
+"""Up to this size a picture is copied to a fixed place: cheaper than asking NumPy where it lies."""
+
+READING = struct.Struct("=5d6i")
+READING_DTYPE = np.dtype(
+    [("time_s", np.float64), *((name, np.float64) for name in NEURONS), ("spikes", np.int32, 4),
+     ("collision", np.int32), ("state", np.int32)]
+)  # fmt: skip
+"""``lobula_reading``."""
+
+STATE_NAMES = np.array(STATES)
+
+
+class Memory:
+    """``size`` bytes aligned for the core, and their address."""
+
+    def __init__(self, size: int) -> None:
+        self._bytes = np.empty(size + ALIGN, np.uint8)
+        self.address = -(-self._bytes.ctypes.data // ALIGN) * ALIGN
+
+
+class Workspace(Memory):
+    """What a network needs while it works; networks that take turns on one thread can share one."""
+
+    def __init__(self, params: NetworkParams, shape: tuple[int, int]) -> None:
+        height, width = shape
+        settings, core = core_params(params), library()
+        self.frames = int(core.lobula_block_frames(settings, width, height))
+        super().__init__(core.lobula_workspace_size(settings, width, height, self.frames))
+
+
+class CoreNetwork:
+    """The network in C. ``step`` takes luminance (H, W), uint8 or float32 in 0..255, already checked."""
+
+    def __init__(self, p: NetworkParams, shape: tuple[int, int], *, workspace: Workspace | None = None) -> None:
+        self.p = p
+        self.shape = height, width = shape
+        self._core = library()
+        settings = core_params(p)
+        self._state = Memory(self._core.lobula_state_size(settings, width, height))
+        self._tick_sum: Image | None = None
+        self._net = Net(state=self._state.address)
+        self.use(workspace or Workspace(p, shape))
+        if self._core.lobula_init(self._state.address, settings, width, height, isa_index()):
+            raise RuntimeError(f"the C core refuses {width} x {height} px with these settings")
+        self._stages = {dtype: np.empty(shape, dtype) for dtype in TYPES}
+        self._staged = {
+            dtype: Images(pixels=stage.ctypes.data, row_bytes=stage.strides[0], type=TYPES[dtype])
+            for dtype, stage in self._stages.items()
+        }
+        self._refs = {dtype: ctypes.byref(images) for dtype, images in self._staged.items()}
+        self._copied = math.prod(shape) <= COPIED_BYTES
+        self._reading = bytearray(READING.size)
+        self._reading_at = ctypes.addressof((ctypes.c_char * READING.size).from_buffer(self._reading))
+        self._net_at = ctypes.addressof(self._net)
+
+    def use(self, workspace: Workspace) -> None:
+        """Work in ``workspace`` from now on."""
+        self._workspace = workspace
+        self._net.workspace = workspace.address
+
+    def reset(self) -> None:
+        """Return to before the first frame."""
+        self._core.lobula_reset(self._state.address)
+
+    def step(self, image: NDArray[Any], time_s: float, *, turning: bool = False, taps: Collection[str] = ()) -> Reading:
+        """Advance by one frame. ``turning`` says that the camera itself turns: nothing is decided meanwhile."""
+        dtype = image.dtype
+        if self._copied:
+            self._stages[dtype][...] = image
+            at: Any = self._refs[dtype]
+        else:
+            image, pictures = _images(image[None])
+            at = ctypes.byref(pictures)
+        maps = {name: np.empty(self.shape, np.float32) for name in taps}
+        pointers = _pointers(maps) if maps else None
+        status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
+        if status == NEED_TICK_SUM:
+            self._bind_tick_sum()
+            status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
+        if status:
+            raise RuntimeError(f"the C core failed with code {status}")
+        t, lgmd1, lgmd2, right, left, *spikes, collision, state = READING.unpack(self._reading)
+        return Reading(t, lgmd1, lgmd2, right, left, Spikes(*spikes), collision != 0, STATES[state], maps)
+
+    def run_block(
+        self, images: NDArray[Any], times_s: NDArray[np.float64], turning: NDArray[np.bool_] | None = None
+    ) -> NDArray[Any]:
+        """Advance by all of ``images`` (T, H, W) and return their readings, TRACE_DTYPE (T,); ``frame`` counts from 0.
+
+        The same numbers as ``step`` on each in turn. Other Python threads run meanwhile.
+        """
+        count = len(images)
+        images, pictures = _images(images)
+        times_s = np.ascontiguousarray(times_s, np.float64)
+        turns = None if turning is None else np.ascontiguousarray(turning, np.uint8)
+        readings = np.empty(count, READING_DTYPE)
+        finished = ctypes.c_int64()
+        first, done = pictures.pixels, 0
+        while done < count:
+            pictures.pixels = first + done * pictures.image_bytes
+            status = self._core.lobula_run(
+                self._net_at, ctypes.byref(pictures), times_s[done:].ctypes.data,
+                None if turns is None else turns[done:].ctypes.data, count - done, self._workspace.frames,
+                readings[done:].ctypes.data, ctypes.byref(finished),
+            )  # fmt: skip
+            done += finished.value
+            if status == NEED_TICK_SUM:
+                self._bind_tick_sum()
+            elif status:
+                raise RuntimeError(f"the C core failed with code {status}")
+        return _trace(readings)
+
+    def _bind_tick_sum(self) -> Image:
+        self._tick_sum = np.zeros(self.shape, np.float32)
+        self._net.tick_sum = self._tick_sum.ctypes.data
+        return self._tick_sum
+
+    def state_dict(self) -> StateDict:
+        """Return a copy of everything it remembers; ``model.state.NAMES`` lists the entries."""
+        state: StateDict = {}
+        for number, name in enumerate(PLANES[:-1]):
+            state[name] = np.empty(self.shape, np.float32)
+            self._core.lobula_get_plane(self._state.address, number, state[name].ctypes.data)
+        now = Scalars()
+        self._core.lobula_get_scalars(self._state.address, now)
+        waiting = self._tick_sum if now.tick_frames else None
+        state["tick_sum"] = np.zeros(self.shape, np.float32) if waiting is None else waiting.copy()
+        known = {"step_s": True, "started_s": True, "frame_s": now.has_frame, "turned_s": now.has_turned,
+                 "held_s": now.has_held}  # fmt: skip
+        state |= {name: getattr(now, name) if known[name] else math.nan for name in TIMES}
+        numbers = [bool(now.still), bool(now.flashing), now.tick_frames]
+        for lgmd in (now.lgmd1, now.lgmd2):
+            numbers += [lgmd.raw, lgmd.potential, lgmd.change_before]
+        state |= dict(zip(NUMBERS, [*numbers, now.rightward, now.leftward], strict=True))
+        state["window"] = np.empty((self._core.lobula_window_count(self._state.address), 4), np.float64)
+        self._core.lobula_get_window(self._state.address, state["window"].ctypes.data)
+        return state
+
+    def load_state_dict(self, state: Mapping[str, Any]) -> None:
+        """Continue from a ``state_dict`` of either engine, made with the same settings and size.
+
+        Raises
+        ------
+        ParameterError, ShapeError : an entry that is missing or of another size
+        """
+        check_state(state, self.shape)
+        for number, name in enumerate(PLANES[:-1]):
+            plane = np.ascontiguousarray(state[name], np.float32)
+            self._core.lobula_set_plane(self._state.address, number, plane.ctypes.data)
+        now = Scalars(still=bool(state["still"]), flashing=bool(state["flashing"]),
+                      tick_frames=int(state["tick_frames"]), rightward=state["lptc_r"], leftward=state["lptc_l"])
+        for name in TIMES:
+            if not math.isnan(state[name]):
+                setattr(now, name, float(state[name]))
+        now.has_frame, now.has_turned, now.has_held = (
+            not math.isnan(state[name]) for name in ("frame_s", "turned_s", "held_s")
+        )
+        for name, lgmd in (("lgmd1", now.lgmd1), ("lgmd2", now.lgmd2)):
+            lgmd.raw, lgmd.potential = state[f"{name}_raw"], state[f"{name}_potential"]
+            lgmd.change_before = state[f"{name}_change_before"]
+        self._core.lobula_set_scalars(self._state.address, now)
+        if now.tick_frames:
+            self._bind_tick_sum()[...] = state["tick_sum"]
+        window = np.ascontiguousarray(state["window"], np.float64)
+        window = window[-self._core.lobula_window_capacity(self._state.address) :]
+        self._core.lobula_set_window(self._state.address, window.ctypes.data, len(window))
+
+
+def in_range(image: Any) -> bool:
+    """Whether ``image`` is a float32 array (H, W) in 0..255, told in one quick look; a doubtful case says no."""
+    if type(image) is not np.ndarray or image.dtype != np.float32 or image.strides[-1] != 4 or not available():
+        return False
+    height, width = image.shape
+    where = Images(pixels=image.ctypes.data, row_bytes=image.strides[0], type=TYPES[image.dtype])
+    return bool(library().lobula_in_range(ctypes.byref(where), width, height))
+
+
+def _images(images: NDArray[Any]) -> tuple[NDArray[Any], Images]:
+    """Return ``images`` (T, H, W) with the pixels of each row side by side, and where they lie."""
+    if images.strides[-1] != images.itemsize:
+        images = np.ascontiguousarray(images)
+    image_bytes, row_bytes, _ = images.strides
+    return images, Images(
+        pixels=images.ctypes.data, row_bytes=row_bytes, image_bytes=image_bytes, type=TYPES[images.dtype]
+    )
+
+
+def _pointers(maps: Mapping[str, Image]) -> Any:
+    return (ctypes.c_void_p * len(TAPS))(*(maps[name].ctypes.data if name in maps else None for name in TAPS))
+
+
+def _trace(readings: NDArray[Any]) -> NDArray[Any]:
+    trace = np.empty(len(readings), TRACE_DTYPE)
+    trace["frame"] = np.arange(len(readings))
+    trace["time_s"] = readings["time_s"]
+    for i, name in enumerate(NEURONS):
+        trace[name] = readings[name]
+        trace[f"spikes_{name}"] = readings["spikes"][:, i]
+    trace["collision"] = readings["collision"]
+    trace["state"] = STATE_NAMES[readings["state"]]
+    return trace
