@@ -39,6 +39,7 @@ def looming(*, l_over_v_ms: float | None = None, speed_cm_s: float | None = None
     speed = _speed("looming", 8.0 if speed_cm_s is None else speed_cm_s)
     require_between("stimuli.looming: start_cm", start_cm, 0.1, 1e4, "cm")
     require_between("stimuli.looming: stop_cm", stop_cm, 0.0, start_cm, "cm")
+    require_between("stimuli.looming: offset_cm", offset_cm, -1e4, 1e4, "cm")
     own = {"speed_cm_s": speed, "l_over_v_ms": thing.object_cm / 2 / speed * 1000, "start_cm": start_cm,
            "stop_cm": stop_cm, "offset_cm": offset_cm}
     return _film(thing, "looming", lambda u: (offset_cm, start_cm - speed * u), (start_cm - stop_cm) / speed, own,
@@ -60,6 +61,7 @@ def receding(*, speed_cm_s: float = 8.0, start_cm: float = 3.5, stop_cm: float =
     speed = _speed("receding", speed_cm_s)
     require_between("stimuli.receding: stop_cm", stop_cm, 0.1, 1e4, "cm")
     require_between("stimuli.receding: start_cm", start_cm, 0.0, stop_cm, "cm")
+    require_between("stimuli.receding: offset_cm", offset_cm, -1e4, 1e4, "cm")
     own = {"speed_cm_s": speed, "start_cm": start_cm, "stop_cm": stop_cm, "offset_cm": offset_cm}
     return _film(_object(settings), "receding", lambda u: (offset_cm, start_cm + speed * u),
                  (stop_cm - start_cm) / speed, own)
