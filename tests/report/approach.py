@@ -62,5 +62,5 @@ def play(*sinks: Any, frames: int = FRAMES, header: dict[str, Any] | None = None
             for record in events(index):
                 sink.event(record)
     if finish:
-        for sink in reversed(sinks):
+        for sink in sinks:
             sink.close({**SUMMARY, "frames": frames})

@@ -94,7 +94,7 @@ def test_hostile_names_are_only_text(tmp_path: Path) -> None:
     sink.open(header)
     sink.frame(0, reading(0), picture)
     sink.event({"type": "state", "state": evil, "phase": "start", "frame": 0, "time_s": 0.0})
-    sink.close({"status": evil, "message": evil, "frames": evil})
+    sink.close({"status": evil, "problems": [evil], "frames": evil})
     page = Page(tmp_path / "index.html")
     assert not page.all("script")
     assert not [a for _, attributes in page.tags for a in attributes if a.startswith("on")]
@@ -128,25 +128,26 @@ def test_event_may_come_before_or_after_its_frame(tmp_path: Path, event_first: b
 def test_video_in_the_folder_is_shown(tmp_path: Path) -> None:
     folder = tmp_path / "out"
     video = folder / "my video.mp4"
-    play(ReportPage(folder, video), AnnotatedVideo(video))
-    page = Page(folder / "index.html")
-    assert [a["src"] for a in page.all("video")] == ["my%20video.mp4"]
-    assert [a["data-seek"] for a in page.all("button")] == ["0.000000", "1.800000"]
+    page = ReportPage(folder, video)
+    play(AnnotatedVideo(video), page)
+    written = Page(folder / "index.html")
+    assert [a["src"] for a in written.all("video")] == ["my%20video.mp4"]
+    assert [a["data-seek"] for a in written.all("button")] == ["0.000000", "1.800000"]
 
 
 def test_video_elsewhere_or_unfinished_is_left_out(tmp_path: Path) -> None:
-    play(ReportPage(tmp_path / "out", tmp_path / "v.mp4"), AnnotatedVideo(tmp_path / "v.mp4"))
+    play(AnnotatedVideo(tmp_path / "v.mp4"), ReportPage(tmp_path / "out", tmp_path / "v.mp4"))
     assert not Page(tmp_path / "out" / "index.html").all("video")
     play(ReportPage(tmp_path / "two", tmp_path / "two" / "never.mp4"))
     assert not Page(tmp_path / "two" / "index.html").all("video")
 
 
-def test_interrupted_run_says_so(tmp_path: Path) -> None:
+def test_run_that_failed_says_so(tmp_path: Path) -> None:
     sink = ReportPage(tmp_path)
     play(sink, frames=20, finish=False)
-    sink.close({"type": "summary", "status": "interrupted", "frames": 20})
+    sink.close({"type": "summary", "status": "source_failed", "frames": 20, "problems": ["clip.mp4: torn"]})
     page = Page(tmp_path / "index.html")
-    assert "This run was not completed: interrupted." in page.text
+    assert "This run was not completed: source failed. clip.mp4: torn" in page.text
     assert "to the end of the run" in page.text
     sink.close({})  # a second call changes nothing
 
@@ -160,10 +161,8 @@ def test_run_without_frames_or_facts(tmp_path: Path) -> None:
 
 def test_folder_that_cannot_be(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
-    sink = ReportPage(tmp_path / "file" / "out")
     with pytest.raises(OutputError, match="is not a folder"):
-        sink.open(HEADER)
-    sink.close(SUMMARY)
+        ReportPage(tmp_path / "file" / "out")
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")

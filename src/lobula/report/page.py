@@ -24,15 +24,20 @@ class ReportPage:
 
     Parameters
     ----------
-    folder : made if it is not there
+    folder : made at once if it is not there, so that other outputs can go into it
     video : an annotated video; the page shows it if it lies in the same folder and is finished when the page is
-        written. Give the runtime this sink first and the video's after it: then the folder is there when the video
-        starts, and the page is written last.
+        written, so give its sink to the runtime before this one
+
+    Raises
+    ------
+    OutputError : the folder cannot be made
     """
 
     def __init__(self, folder: str | Path, video: str | Path | None = None) -> None:
         self.folder = Path(folder)
         self.path = self.folder / "index.html"
+        with writing(self.folder):
+            self.folder.mkdir(parents=True, exist_ok=True)
         beside = video is not None and Path(video).parent.resolve() == self.folder.resolve()
         self._video = Path(video) if video is not None and beside else None
         self._trace = TraceWriter(self.folder / "trace.csv")
@@ -43,10 +48,8 @@ class ReportPage:
         self._newest: tuple[int, Picture | None] = (-1, None)
 
     def open(self, header: Mapping[str, Any]) -> None:
-        """Make the folder and start the trace."""
+        """Start the trace."""
         self._header = header
-        with writing(self.folder):
-            self.folder.mkdir(parents=True, exist_ok=True)
         self._trace.open(header)
         self._started = True
 

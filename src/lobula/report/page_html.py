@@ -45,8 +45,7 @@ class Report(NamedTuple):
 
 
 _SETTING_COLUMNS = ("path", "value", "unit", "meaning", "source")
-_STATUS = {"ok": "finished", "interrupted": "interrupted", "failed": "failed"}
-_SHOWN_ELSEWHERE = {"type", "settings", "width", "height", "thresholds"}
+_SHOWN_ELSEWHERE = {"type", "settings", "width", "height", "thresholds", "problems"}
 
 
 def page_html(report: Report) -> str:
@@ -77,11 +76,10 @@ def _section(title: str, inside: str) -> str:
 
 
 def _status(summary: Mapping[str, Any]) -> str:
-    status = str(summary.get("status", "ended without a summary"))
+    status = str(summary.get("status", "ended without a summary")).replace("_", " ")
     if status == "ok":
         return ""
-    reason = summary.get("error") or summary.get("message") or ""
-    words = f"This run was not completed: {_STATUS.get(status, status)}. {reason}".rstrip()
+    words = ". ".join([f"This run was not completed: {status}", *map(str, summary.get("problems", ()))])
     return f'<p class="warning" role="status">{escape(words)}</p>'
 
 
@@ -131,7 +129,8 @@ def _event(event: Event, seekable: bool) -> str:
     if event.end_s is not None:
         until = f"to {event.end_s:.3f} s, {event.end_s - event.start_s:.3f} s long"
     peak = f", peak at frame {int(event.facts['peak_frame'])}" if "peak_frame" in event.facts else ""
-    values = "".join(f'<span class="{n}">{LABELS[n]} {float(event.facts[n]):.2f}</span>'
+    # + 0.0 turns the -0.0 of a resting LPTC-L into 0.0
+    values = "".join(f'<span class="{n}">{LABELS[n]} {round(event.facts[n], 2) + 0.0:.2f}</span>'
                      for n in NEURONS if n in event.facts)
     return (f'<li class="{kind}">{_picture(event)}<div><h3>{escape(title)}{number}</h3><p>{start} {until}</p>'
             f'<p>frame {event.frame}{peak}</p><p class="values">{values}</p></div></li>')
@@ -149,7 +148,7 @@ def _facts(header: Mapping[str, Any], summary: Mapping[str, Any]) -> str:
     if "width" in header and "height" in header:
         rows["working size"] = f"{header['width']} x {header['height']} px"
     rows["thresholds"] = ", ".join(f"{LABELS[n]} {level:g}" for n, level in thresholds(header).items())
-    rows.update((key, value) for key, value in summary.items() if key != "type")
+    rows.update((key, value) for key, value in summary.items() if key not in _SHOWN_ELSEWHERE)
     return "<dl>" + "".join(f"<div><dt>{escape(str(key).replace('_', ' '))}</dt><dd>{escape(_plain(value))}</dd></div>"
                             for key, value in rows.items() if value is not None) + "</dl>"
 

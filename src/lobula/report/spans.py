@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..runtime.events import REJOIN_S
 from ..types import State
 
 
@@ -19,8 +20,16 @@ class Span(NamedTuple):
 
 
 def collision_spans(trace: NDArray[np.void]) -> list[Span]:
-    """Return the collisions of a trace, in order."""
-    return [span for span in _runs(trace, np.where(trace["collision"], "collision", "")) if span.name]
+    """Return the collisions of a trace, in order: alarms no more than ``REJOIN_S`` apart are one, as in the events."""
+    spans: list[Span] = []
+    for span in _runs(trace, np.where(trace["collision"], "collision", "")):
+        if not span.name:
+            continue
+        if spans and span.start_s - spans[-1].end_s <= REJOIN_S + 1e-6:  # stamps are sums of rounded numbers
+            spans[-1] = spans[-1]._replace(end_s=span.end_s)
+        else:
+            spans.append(span)
+    return spans
 
 
 def state_spans(trace: NDArray[np.void], *, without: tuple[State, ...] = ("ok",)) -> list[Span]:

@@ -19,8 +19,7 @@ class Sink(Protocol):
 
     The order of calls is ``open``, then ``frame`` and ``event`` as they come, then ``close``. ``close`` is called
     exactly once after ``open`` was tried, also when ``open``, ``frame`` or the source failed, and must leave a
-    readable file. Sinks are opened in the order they are given and closed in the reverse order, so that a report's
-    folder is made before what goes into it, and its page is written after.
+    readable file. Sinks are opened and closed in the order they were given.
 
     Raises
     ------
