@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from typing import Any, TextIO, cast
@@ -16,14 +17,18 @@ _ParserError = cast(type[Exception], typer.BadParameter.__mro__[2])
 """What the parser raises for a wrong command line: ``ClickException``, which typer names in no public place."""
 
 
-def new_app(**settings: object) -> typer.Typer:
-    """Return the typer application of one verb: plain help, no completion, errors left to ``call``."""
-    return typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
-                       context_settings={"help_option_names": ["-h", "--help"]}, **settings)  # type: ignore[arg-type]
+def new_app(about: str | None = None) -> typer.Typer:
+    """Return the typer application of one verb: plain help, no completion, errors left to ``call``.
+
+    ``about`` describes a verb that has verbs of its own.
+    """
+    return typer.Typer(help=about, add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
+                       context_settings={"help_option_names": ["-h", "--help"]})
 
 
 def call(verb: str, arguments: Sequence[str]) -> int:
     """Run ``verb`` and return its exit code; a traceback means a fault of lobula's own."""
+    warnings.showwarning = _show_warning
     try:
         app: typer.Typer = import_module(f".{verb}", __package__).app
         command = typer.main.get_command(app)
@@ -40,6 +45,13 @@ def call(verb: str, arguments: Sequence[str]) -> int:
     except _ParserError as error:
         message = cast(Any, error).format_message().rstrip(".")
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)
+
+
+def _show_warning(
+    message: Warning | str, category: type[Warning], filename: str, lineno: int, file: Any = None, line: Any = None
+) -> None:
+    """Say a warning in one line, as everything else."""
+    print(f"lobula: {message}", file=sys.stderr)
 
 
 def _on_the_way(error: LobulaError) -> bool:

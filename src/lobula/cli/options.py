@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -15,7 +15,6 @@ Source = Annotated[str, typer.Argument(
 
 Json = Annotated[bool, typer.Option("--json", help="records for programs, on standard output")]
 
-_SETTINGS = "Settings"
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="default, paper or published")]
 Neurons = Annotated[str | None, typer.Option(metavar="all|lgmds|lgmd2", help="who decides")]
 Config = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="settings file, see `lobula config init`")]
@@ -42,6 +41,17 @@ Rate = Annotated[float | None, typer.Option(
 PixelFormat = Annotated[str | None, typer.Option(
     metavar="NAME", help="raw pipe: gray8, yuv420p, nv12, yuyv422, ...; a request to a camera")]
 InputSize = Annotated[str | None, typer.Option(metavar="WxH", help="raw pipe: size of its pictures; or as above")]
+
+
+def view(size: str, fit: str, roi: str | None, mask: Path | None, flip: str | None, rotate: int) -> dict[str, Any]:
+    """Return these options as the keywords of ``lobula.open``.
+
+    Raises
+    ------
+    ParameterError : a size or a region in another form
+    """
+    return {"size": parse_size(size, "--size"), "fit": fit, "roi": None if roi is None else parse_roi(roi),
+            "mask": mask, "flip": flip, "rotate": rotate}
 
 
 def parse_size(text: str, option: str) -> tuple[int, int]:

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..errors import LobulaError
-from ..runtime.sinks import Sink
 from . import options as o
 from .call import new_app
 from .progress import Screen, screen
+
+if TYPE_CHECKING:
+    from ..engine.network import Network
+    from ..frames import FrameSource
+    from ..model.network import NetworkParams
+    from ..runtime.sinks import Sink
 
 app = new_app()
 
@@ -51,16 +56,21 @@ def run(
     People read standard error. With --json, programs read standard output: a header, one record for each event that
     starts or ends, one summary, whatever happens.
     """
+    from ..engine.network import Network
     from ..frames import open as open_frames
+    from ..model.scaling import scaled
     from ..runtime.loop import refused_summary
     from ..runtime.ndjson import NdjsonSink
     from .settings import choose
 
     try:
         chosen = choose(preset, neurons, config, settings or (), sensitivity)
+        view = o.view(size, fit, roi, mask, flip, rotate)
+        params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
+        network = Network(params, engine=engine)
         files = _file_sinks(trace, annotate, report)
         frames = open_frames(
-            source, **_view(size, fit, roi, mask, flip, rotate), start_s=start, end_s=end, stride=stride,
+            source, **view, start_s=start, end_s=end, stride=stride,
             max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
         )  # fmt: skip
@@ -69,34 +79,26 @@ def run(
             NdjsonSink(sys.stdout).close(refused_summary(str(error)))
         raise
     with frames, screen(frames.frame_count, frames.name) as here:
-        return _watch(frames, chosen, engine, scale_kernels, files, json, here)
+        return _watch(frames, params, chosen.preset, network, files, json, here)
 
 
-def _watch(frames: Any, chosen: Any, engine: str, scale_kernels: bool, files: list[Sink], json: bool,
+def _watch(frames: FrameSource, params: NetworkParams, preset: str, network: Network, files: list[Sink], json: bool,
            here: Screen) -> int:
     from ..runtime.header import run_header
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from .narrator import Narrator
-    from .networks import make_network
-
-    network = make_network(chosen.params, engine, scale_kernels)
     # last: its summary knows what became of the files
     sinks: list[Sink] = [*files, NdjsonSink(sys.stdout) if json else Narrator(here.say)]
-    header = run_header(frames, chosen.params, preset=chosen.preset, engine=network.engine)
+    header = run_header(frames, params, preset=preset, engine=network.engine)
     for note in frames.notes:
         here.say(f"lobula: {note}")
     outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
-    outcome = run_loop(frames, network, outputs, header, on_frame=here.on_frame)
+    outcome = run_loop(frames, network, outputs, header, on_frame=here.advance)
     if outcome.message:
         here.say(f"lobula: {outcome.message}")
     return outcome.exit_code
-
-
-def _view(size: str, fit: str, roi: str | None, mask: Path | None, flip: str | None, rotate: int) -> dict[str, Any]:
-    return {"size": o.parse_size(size, "--size"), "fit": fit, "roi": None if roi is None else o.parse_roi(roi),
-            "mask": mask, "flip": flip, "rotate": rotate}
 
 
 def _file_sinks(trace: Path | None, annotate: Path | None, report: Path | None) -> list[Sink]:

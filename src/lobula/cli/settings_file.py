@@ -29,15 +29,14 @@ def read_settings(path: Path) -> dict[str, Any]:
 
 def settings_toml(rows: Sequence[Mapping[str, Any]], preset: str) -> str:
     """Return a commented TOML document of ``rows`` (as ``setting_rows`` gives them), grouped by layer."""
-    lines = ["# Settings of lobula. Lines may be left out: the preset's value holds then.", "",
-             f"preset = {json.dumps(preset)}"]
-    group = None
+    groups: dict[str, list[str]] = {}
     for row in rows:
         owner, _, name = row["path"].rpartition(".")
-        if owner != group:
-            group = owner
-            lines += ["", f"[{owner}]"]
-        lines.append(f"{name} = {toml_value(row['value'])}  # {remark(row)}")
+        groups.setdefault(owner, []).append(f"{name} = {toml_value(row['value'])}  # {remark(row)}")
+    lines = ["# Settings of lobula. Lines may be left out: the preset's value holds then.", "",
+             f"preset = {json.dumps(preset)}"]
+    for owner, settings in groups.items():
+        lines += ["", f"[{owner}]", *settings]
     return "\n".join(lines) + "\n"
 
 

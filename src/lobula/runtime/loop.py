@@ -49,7 +49,7 @@ def run(
     header: Record,
     *,
     turning: Callable[[Frame], bool] | None = None,
-    on_frame: Callable[[Frame], None] | None = None,
+    on_frame: Callable[[], None] | None = None,
 ) -> Outcome:
     """Run ``network`` over ``source`` to its end and return the outcome.
 
@@ -75,7 +75,7 @@ def run(
                 outputs.frame(frame.index, reading, source.picture)
                 outputs.events(records)
                 if on_frame is not None:
-                    on_frame(frame)
+                    on_frame()
                 if outputs.deserted:
                     break
         except Interrupted as stop:
