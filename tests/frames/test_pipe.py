@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import signal
 import subprocess
 import sys
 
@@ -114,4 +115,25 @@ def test_standard_input_is_read_as_it_comes():
             # the answer comes before the next picture is sent: nothing is held back
             assert child.stdout.readline().split() == [b"%d" % i, b"%d" % picture[0, 63]]
         child.stdin.close()
+        assert child.wait(20) == 0
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_ends_the_wait_for_data(number):
+    code = (
+        "import lobula.frames, signal\n"
+        "class Stop(BaseException): pass\n"
+        "def stop(*_): raise Stop\n"
+        "signal.signal(signal.SIGTERM, stop)\n"
+        "frames = lobula.frames.open('-', pixel_format='gray8', input_size=(64, 48))\n"
+        "try:\n"
+        "    for f in frames: print(f.index, flush=True)\n"
+        "except (KeyboardInterrupt, Stop) as reason: print(type(reason).__name__)\n"
+    )
+    with subprocess.Popen([sys.executable, "-c", code], stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
+        child.stdin.write(PICTURES[0].tobytes())
+        child.stdin.flush()
+        assert child.stdout.readline() == b"0\n"
+        child.send_signal(number)
+        assert child.stdout.readline() == (b"KeyboardInterrupt\n" if number == signal.SIGINT else b"Stop\n")
         assert child.wait(20) == 0

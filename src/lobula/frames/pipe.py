@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from io import FileIO
 from typing import Any
 
 import av
 
 from ..errors import FrameSourceError, ParameterError
+from .selection import Picture
 from .video import VideoReader, open_container
 
 DEFAULT_RATE_HZ = 30.0
@@ -38,17 +40,56 @@ def open_pipe(
     if (pixel_format is None) != (input_size is None):
         raise ParameterError("raw pictures from a pipe: must be given both pixel_format and input_size")
     # unbuffered: a read returns what has arrived, so a picture is not held back until the next one fills a buffer
-    source = FileIO(sys.stdin.fileno(), closefd=False) if file is None else file
-    if pixel_format is None or input_size is None:
-        allowed = "not a stream that FFmpeg recognises: raw pictures need pixel_format and input_size"
-        return VideoReader(open_container("-", source, allowed), "-", threads=threads, rate_hz=rate_hz)
-    how, picture_bytes = raw_options(pixel_format, input_size, rate_hz or DEFAULT_RATE_HZ)
-    allowed = f"no whole {input_size[0]} x {input_size[1]} {pixel_format} picture: must hold {picture_bytes} bytes each"
-    container = open_container("-", source, allowed, format="rawvideo", options=how, buffer_size=picture_bytes)
+    pipe = _Pipe(FileIO(sys.stdin.fileno(), closefd=False) if file is None else file)
     try:
-        return VideoReader(container, "-", cut_tail_is_fine=True)
-    except FrameSourceError as error:
-        raise FrameSourceError(f"-: {allowed}") from error
+        if pixel_format is None or input_size is None:
+            allowed = "not a stream that FFmpeg recognises: raw pictures need pixel_format and input_size"
+            return PipeReader(open_container("-", pipe, allowed), "-", threads=threads, rate_hz=rate_hz)
+        how, picture_bytes = raw_options(pixel_format, input_size, rate_hz or DEFAULT_RATE_HZ)
+        width, height = input_size
+        allowed = f"no whole {width} x {height} {pixel_format} picture: must hold {picture_bytes} bytes each"
+        container = open_container("-", pipe, allowed, format="rawvideo", options=how, buffer_size=picture_bytes)
+        try:
+            return PipeReader(container, "-", cut_tail_is_fine=True)
+        except FrameSourceError as error:
+            raise FrameSourceError(f"-: {allowed}") from error
+    except _InterruptError as carried:
+        raise carried.reason from None
+
+
+class PipeReader(VideoReader):
+    """Reads a pipe; an interrupt that arrives while it waits for data ends the wait."""
+
+    def pictures(self, start_s: float | None = None) -> Iterator[Picture]:
+        """Yield every picture in order, as ``VideoReader`` does."""
+        try:
+            yield from super().pictures(start_s)
+        except _InterruptError as carried:
+            raise carried.reason from None
+
+
+class _InterruptError(Exception):
+    """Takes a KeyboardInterrupt and its like through PyAV, which would swallow it and go on reading."""
+
+    def __init__(self, reason: BaseException) -> None:
+        super().__init__()
+        self.reason = reason
+
+
+class _Pipe:
+    """The bytes of a pipe, as PyAV wants to read them."""
+
+    def __init__(self, file: Any) -> None:
+        self._file = file
+
+    def read(self, size: int) -> bytes:
+        try:
+            data: bytes = self._file.read(size)
+        except Exception:
+            raise
+        except BaseException as reason:
+            raise _InterruptError(reason) from None
+        return data
 
 
 def raw_options(pixel_format: str, input_size: tuple[int, int], rate_hz: float) -> tuple[dict[str, str], int]:

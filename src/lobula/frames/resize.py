@@ -57,9 +57,8 @@ class AreaAverage:
         self._shape = (source_height, source_width)
         self._rows_of = slice(crop.y, crop.y + crop.height)
         self._columns_of = slice(crop.x, crop.x + crop.width)
-        rows = coverage(crop.height, 0, crop.height, out_height)
-        self._rows = (gain * rows).astype(np.float32)
-        self._columns = coverage(crop.width, 0, crop.width, out_width).T.astype(np.float32)
+        self._rows = _bands(gain * coverage(crop.height, 0, crop.height, out_height))
+        self._columns = _bands(coverage(crop.width, 0, crop.width, out_width))
         self._offset = np.float32(offset)
 
     def __call__(self, plane: NDArray[Any]) -> Image:
@@ -67,7 +66,28 @@ class AreaAverage:
         if plane.shape != self._shape:
             raise ValueError(f"plane of {plane.shape}: made for {self._shape}")
         part = plane[self._rows_of, self._columns_of].astype(np.float32)
-        image = np.asarray(self._rows @ part @ self._columns, np.float32)
+        image = _average_rows(np.ascontiguousarray(_average_rows(part, self._rows).T), self._columns).T
         image += self._offset
         # also takes off the 1e-5 by which float32 sums overshoot white
-        return np.clip(image, 0, 255, out=image)
+        return np.clip(image, 0, 255, out=np.empty(image.shape, np.float32))
+
+
+_Band = tuple[slice, NDArray[np.float32]]
+
+
+def _bands(weights: NDArray[np.float64]) -> list[_Band]:
+    """Return, for each row of ``weights``, where it is not zero and what it holds there."""
+    bands = []
+    for row in weights:
+        held = np.flatnonzero(row)
+        span = slice(int(held[0]), int(held[-1]) + 1)
+        bands.append((span, row[span].astype(np.float32)))
+    return bands
+
+
+def _average_rows(image: Image, bands: list[_Band]) -> Image:
+    # one small product for each band: a product of whole matrices would be mostly zeros, and would start a thread pool
+    averaged = np.empty((len(bands), image.shape[1]), np.float32)
+    for row, (span, weights) in zip(averaged, bands, strict=True):
+        np.dot(weights, image[span], out=row)
+    return averaged
