@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import lobula.frames
-from lobula.errors import ParameterError
+from lobula.errors import FrameSourceError, ParameterError
 from lobula.frames import FrameSequence
 from lobula.frames.resize import AreaAverage
 
@@ -180,6 +180,15 @@ def test_frames_keep_their_own_memory(tmp_path):
     path = write_lossless(tmp_path / "a.mkv", PICTURES)
     kept = read(path, **AS_IT_IS)
     np.testing.assert_array_equal(images(kept), np.stack(PICTURES))
+
+
+def test_closed_source_gives_no_frames_but_its_last_picture(tmp_path):
+    with lobula.frames.open(write_clip(tmp_path / "a.mp4", PICTURES)) as frames:
+        next(frames)
+    frames.close()
+    with pytest.raises(FrameSourceError, match=r"a\.mp4: is closed: frames must be read before that"):
+        next(frames)
+    assert frames.picture().shape == (HEIGHT, WIDTH, 3)
 
 
 def test_threads_change_nothing(tmp_path):

@@ -130,14 +130,22 @@ class FrameSequence(FrameSource):
     def __init__(self, reader: Reader, view: View, selection: Selection, resizer: Resizer | None = None) -> None:
         super().__init__(reader, view, selection, resizer)
         self._pictures = selection.within(increasing(reader.pictures(selection.start_s), reader.name))
+        self._closed = False
+
+    def close(self) -> None:
+        """Let go of the source; it gives no more frames, but ``picture`` still shows the last one."""
+        self._closed = True  # FFmpeg must not be asked for more: it would read freed memory
+        super().close()
 
     def __next__(self) -> Frame:
         """Return the next frame.
 
         Raises
         ------
-        FrameSourceError : the source failed on the way, or the selection holds no frame
+        FrameSourceError : the source failed on the way or was closed, or the selection holds no frame
         """
+        if self._closed:
+            raise FrameSourceError(f"{self.name}: is closed: frames must be read before that", on_the_way=True)
         if self._enough():
             raise StopIteration
         picture = next(self._pictures, None)
