@@ -13,6 +13,10 @@ class ClockParams(Params):
     """Frame difference, residual, thresholds and spikes for each frame are defined on this clock."""
 
     period_ms: float = param(1000.0 / 30.0, "ms", "one tick", low=5, high=200, source="paper Sec. III: 30 fps")
+    change_exponent: float = param(
+        0.75, "", "a step of n ticks counts its change n^-exponent times", low=0, high=1,
+        source="calibrated on the synthetic battery, 15 against 30 Hz",
+    )  # fmt: skip
     max_gap_ms: float = param(
         500.0, "ms", "a longer silence starts the network afresh", low=100, high=10_000, source="chosen"
     )
@@ -34,7 +38,7 @@ class Beat(Enum):
     START = "start"
     """Nothing to compare it with: the first one, or the first after a long gap."""
     WAIT = "wait"
-    """The source is faster than the clock: the frame joins the average of its tick."""
+    """The source is faster than the clock: a later frame stands nearer to the end of this tick."""
     TICK = "tick"
     """The tick is complete; whether it advances the network is decided by ``advances``."""
 

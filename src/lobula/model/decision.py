@@ -89,6 +89,12 @@ class Decision:
         return (lgmd2 if self.p.neurons == "lgmd2" else min(lgmd1, lgmd2)), lptc
 
     def holds(self, time_s: float) -> bool:
-        """Whether the rule holds now. Weighted sums are rounded to whole spikes, so jitter of the stamps is nothing."""
+        """Whether the rule holds now. Weighted sums are rounded to whole spikes, so jitter of the stamps is nothing.
+
+        One step is never enough, however long: an LPTC compares two steps, so the LGMDs would win each first one. On
+        the clock itself this changes nothing, where ``collision_spikes`` takes two steps to collect.
+        """
         a, b = (math.floor(x + 0.5) for x in self.evidence(time_s))
+        if sum(e.lgmd2 > 0 and (e.lgmd1 > 0 or self.p.neurons == "lgmd2") for e in self.window) < 2:
+            return False
         return a >= self.p.collision_spikes and (self.p.neurons != "all" or a > self.p.lptc_weight * b)

@@ -21,7 +21,7 @@ from .lamina import Lamina, LaminaParams, OnOff
 from .lamina.on_off import split_on_off
 from .neurons.lgmd import Lgmd, LgmdParams
 from .neurons.lptc import Lptc, LptcParams
-from .retina import FlashParams, Light, change_statistics, find_flash, frame_difference
+from .retina import SAME_LIGHT, FlashParams, Light, change_statistics, find_flash, frame_difference
 from .state import StateDict, load_state_dict, state_dict
 
 LGMD_MAPS = ("inhibition_on", "inhibition_off", "summation", "grouped")
@@ -54,7 +54,7 @@ class ReferenceNetwork:
         self.clock = Clock(p.clock)
         self.lamina = Lamina(p.lamina, shape)
         self.lgmds = tuple(Lgmd(q, p.clock.period_ms) for q in (p.lgmd1, p.lgmd2))
-        self.lptc = Lptc(p.lptc)
+        self.lptc = Lptc(p.lptc, p.clock.period_ms)
         self.decision = Decision(p.decision)
         self.reset()
 
@@ -76,8 +76,6 @@ class ReferenceNetwork:
     def _rest(self) -> None:
         """Empty every layer; what the decision remembers stays, so that a gap does not cut off an event."""
         self.luma = np.zeros(self.shape, np.float32)
-        self.tick_sum = np.zeros(self.shape, np.float32)
-        self.tick_frames = 0
         self.started_s = 0.0
         self.flashing = False
         self.change = OnOff(*(np.zeros(self.shape, np.float32) for _ in range(2)))
@@ -98,23 +96,15 @@ class ReferenceNetwork:
                 self.started_s = time_s
                 self.decision.clear()
             case Beat.WAIT:
-                self.tick_sum += image
-                self.tick_frames += 1
+                pass
             case Beat.TICK:
-                image = self._tick_mean(image)
                 about = change_statistics(image, self.luma)
                 dt_ms = self.clock.advances(time_s, about.mean_abs, about.max_abs)
                 if dt_ms is not None:
                     light = find_flash(image, self.luma, about, self.p.flash)
                     return self._advance(image, light, time_s, dt_ms, turning, taps)
+                self.flashing = False
         return self._reading(time_s, Spikes(), turning, {name: np.zeros(self.shape, np.float32) for name in taps})
-
-    def _tick_mean(self, image: NDArray[Any]) -> NDArray[Any]:
-        if self.tick_frames:
-            image = (self.tick_sum + image) / np.float32(self.tick_frames + 1)
-            self.tick_sum[:] = 0
-            self.tick_frames = 0
-        return image
 
     def _advance(
         self, image: NDArray[Any], light: Light | None, time_s: float, dt_ms: float, turning: bool,
@@ -122,9 +112,9 @@ class ReferenceNetwork:
     ) -> Reading:  # fmt: skip
         ticks = dt_ms / self.p.clock.period_ms
         residual = self.p.lamina.on_off.residual**ticks
-        p = frame_difference(image, self.luma, 1.0 / ticks, light or Light())
+        p = frame_difference(image, self.luma, ticks**-self.p.clock.change_exponent, light or SAME_LIGHT)
         mean_change = float(np.abs(p).sum(dtype=np.float64)) / p.size
-        lamina = self.lamina.step(p, residual, dt_ms)
+        lamina = self.lamina.step(p, residual, self.p.clock.period_ms)
         change = OnOff(*split_on_off(p, *self.change, residual))
         maps: dict[str, Image] = {
             "change": p, "lamina": lamina.edges,
@@ -135,7 +125,7 @@ class ReferenceNetwork:
             now, before = (change, self.change) if reads_change else (lamina.adapted, lamina.adapted_before)
             layers = lgmd.step(now, before, mean_change, dt_ms)
             maps |= {f"{name}_{layer}": image for layer, image in layers.items()}
-        maps["motion"] = self.lptc.step(lamina.adapted, lamina.adapted_before, dt_ms)
+        maps["motion"] = self.lptc.step(lamina.adapted, lamina.adapted_before, ticks)
         self.luma, self.change, self.flashing = image.astype(np.float32), change, light is not None
 
         lgmd1, lgmd2 = (lgmd.spikes() for lgmd in self.lgmds)

@@ -19,13 +19,20 @@ LGMD2_PUBLISHED: Settings = {
     "product_gain": 1.0,
 }  # fmt: skip
 PUBLISHED: dict[str, Settings] = {"published code: LGMD2-open-source": {"lgmd2": LGMD2_PUBLISHED}}
+CALIBRATED = "calibrated on the synthetic battery at 30 Hz (docs/calibration.md)"
+LGMD_ON_LAMINA: Settings = {
+    "reads": "lamina",
+    "grouping": {"threshold_grey": 0.1, "floor_grey": 1e-4},
+    "sigmoid_grey": 0.004,
+}
+ON_LAMINA: Settings = {"lgmd1": LGMD_ON_LAMINA, "lgmd2": LGMD_ON_LAMINA, "lptc": {"sigmoid_grey2": 0.002}}
 BASES: dict[str, dict[str, Settings]] = {
     "published": PUBLISHED,
-    "paper": PUBLISHED,
+    "paper": {**PUBLISHED, CALIBRATED: ON_LAMINA},
 }
 """For each base preset, the settings that differ from the declared defaults, by origin."""
 
-DEFAULT = "published"
+DEFAULT = "paper"
 NAMES = ("default", *BASES)
 NEURONS = ("all", "lgmds", "lgmd2")
 

@@ -103,7 +103,7 @@ def frame_difference(image: NDArray[Any], previous: Image, scale: float, light: 
 
         P = scale * (L(t) - (gain * L(t-1) + offset))
 
-    ``scale`` is clock / dt: a step that took twice the model clock counts half its change.
+    ``scale`` is below 1 for steps longer than the clock, which gather more change.
 
     Source: paper, Computational Retina Layer; no persistence (MODEL.md 1.1).
     """

@@ -27,5 +27,6 @@ def scaled(params: NetworkParams, width: int) -> NetworkParams:
     dog = replace(dog, radius_px=s * dog.radius_px, sigma_px=s * dog.sigma_px)
     emd = replace(emd, spans_px=tuple(s * span for span in emd.spans_px))
     lgmd1, lgmd2 = (replace(q, neighbour_px=s * q.neighbour_px) for q in (params.lgmd1, params.lgmd2))
-    return replace(params, lamina=replace(params.lamina, dog=dog), lptc=replace(params.lptc, emd=emd),
-                   lgmd1=lgmd1, lgmd2=lgmd2)
+    return replace(
+        params, lamina=replace(params.lamina, dog=dog), lptc=replace(params.lptc, emd=emd), lgmd1=lgmd1, lgmd2=lgmd2
+    )

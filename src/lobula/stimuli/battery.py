@@ -11,6 +11,8 @@ from .movie import Movie
 from .view import SCENES
 
 DEPTH_AND_PASSING = ("looming", "receding", "translating_right", "translating_left")
+NEARBY_CM = 6.0
+"""Distance of the passing objects: at 8 cm the slowest one moves 1 px a frame and excites no pair of LGMDs."""
 SPEEDS_CM_S = (4.0, 8.0, 12.0)
 POLARITIES: dict[str, dict[str, float]] = {
     "dark": {"object_grey": 45.0, "background_grey": 175.0},
@@ -103,6 +105,8 @@ def _moving() -> Iterator[Case]:
 
 def _object_case(kind: str, label: str, **settings: Any) -> Case:
     settings.setdefault("speed_cm_s", 8.0)
+    if kind.startswith("translating"):
+        settings.setdefault("distance_cm", NEARBY_CM)
     about = _about(kind, settings)
     facts = Expectation(
         kind=kind, dark=about["object_grey"] < about["background_grey"], speed_cm_s=about["speed_cm_s"],

@@ -51,12 +51,12 @@ class Lamina:
         self.channels = OnOff(*(np.zeros(self.shape, np.float32) for _ in range(2)))
         self.adapted = OnOff(*(np.zeros(self.shape, np.float32) for _ in range(2)))
 
-    def step(self, change: Image, residual: float, dt_ms: float) -> LaminaOutput:
-        """Advance one step; ``residual`` is the share of the previous channel kept over ``dt_ms``."""
+    def step(self, change: Image, residual: float, clock_ms: float) -> LaminaOutput:
+        """Advance one step; ``residual`` is the share of the previous channel kept over it."""
         edges = difference_of_gaussians(change, self.p.dog)
         channels = OnOff(*split_on_off(edges, *self.channels, residual))
         pairs = zip(channels, self.channels, strict=True)
-        adapted = OnOff(*(fdsr(now, before, self.p.fdsr, dt_ms) for now, before in pairs))
+        adapted = OnOff(*(fdsr(now, before, self.p.fdsr, clock_ms) for now, before in pairs))
         output = LaminaOutput(edges, adapted, self.adapted)
         self.channels, self.adapted = channels, adapted
         return output

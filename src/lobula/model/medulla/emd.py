@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -36,6 +37,10 @@ class EmdParams(Params):
 MAX_SPANS = 8
 
 
+MAX_STRETCH = 4.0
+"""Spans stretch up to this many ticks, for sources down to 7.5 Hz."""
+
+
 class Motion(NamedTuple):
     """Local motion (H, W), positive rightward, luminance units squared; and its sum in float64."""
 
@@ -43,25 +48,31 @@ class Motion(NamedTuple):
     total: float
 
 
-def emd(channel: Image, previous: Image, p: EmdParams, dt_ms: float) -> Motion:
+def stretched(spans_px: tuple[int, ...], ticks: float) -> tuple[int, ...]:
+    """Return the spans for a step of ``ticks``, px, at least 1."""
+    return tuple(max(1, math.floor(span * min(ticks, MAX_STRETCH) + 0.5)) for span in spans_px)
+
+
+def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: float) -> Motion:
     """Correlate one channel, (H, W) and >= 0, with itself over all spans.
 
     Each cell X1 meets the cell X2 that lies d pixels to its right,
 
-        R_d = D[X1] X2 - X1 D[X2],   D[X] = a X(t) + (1 - a) X(t-1),   a = dt / (dt + tau_d)
+        R_d = D[X1] X2 - X1 D[X2],   D[X] = a X(t) + (1 - a) X(t-1),   a = clock / (clock + tau_d)
 
     where the products X1(t) X2(t) cancel: R_d = (1 - a)(X1(t-1) X2(t) - X1(t) X2(t-1)). R > 0 for rightward motion,
-    R < 0 for leftward, 0 for a still picture. Pairs lie wholly inside the picture and are booked at X1.
+    R < 0 for leftward, 0 for a still picture. Pairs lie wholly inside the picture and are booked at X1. In a step of
+    several clock ticks things go further: the spans are stretched with it, so the speed they prefer stays.
 
     Source: paper Eq. (3); spans and delays MODEL.md 1.5.
     Reading: the pure delay of Eq. (3) is the two-tap low-pass of the published code.
     """
     motion = np.zeros_like(channel)
     total = 0.0
-    for span, delay in zip(p.spans_px, p.delays_ms, strict=True):
+    for span, delay in zip(stretched(p.spans_px, ticks), p.delays_ms, strict=True):
         if span >= channel.shape[1]:
             continue
-        share = np.float32(1.0 - low_pass_share(dt_ms, delay))
+        share = np.float32(1.0 - low_pass_share(clock_ms, delay))
         pairs = share * (previous[:, :-span] * channel[:, span:] - channel[:, :-span] * previous[:, span:])
         motion[:, :-span] += pairs
         total += float(pairs.sum(dtype=np.float64))

@@ -79,13 +79,13 @@ class Lgmd:
         |P| over the picture, grey.
         """
         p = self.p
-        share = low_pass_share(dt_ms, p.change_ms)
+        share = low_pass_share(self.clock_ms, p.change_ms)
         arousal = (share * mean_change + (1.0 - share) * self.change_before) / p.change_scale_grey
         self.change_before = mean_change
         maps: dict[str, Image] = {}
         branches = []
         for name, inhibition, e, e_before in zip(("on", "off"), (p.on, p.off), now, before, strict=True):
-            i = lateral_inhibition(e, e_before, inhibition, p.neighbour_px, dt_ms)
+            i = lateral_inhibition(e, e_before, inhibition, p.neighbour_px, self.clock_ms)
             branches.append(compete(e, i, max(inhibition.bias, arousal)))
             maps[f"inhibition_{name}"] = i
         on, off = branches

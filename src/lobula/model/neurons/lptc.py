@@ -28,22 +28,23 @@ class LptcParams(Params):
 class Lptc:
     """Both LPTCs: they share one net sum, whose sign says which of them speaks."""
 
-    def __init__(self, p: LptcParams) -> None:
+    def __init__(self, p: LptcParams, clock_ms: float) -> None:
         self.p = p
+        self.clock_ms = clock_ms
         self.reset()
 
     def reset(self) -> None:
         """Return to rest: both potentials at 0."""
         self.rightward = self.leftward = 0.0
 
-    def step(self, now: OnOff, before: OnOff, dt_ms: float) -> Image:
-        """Advance one step on the lamina's adapted channels and return the local motion, (H, W), rightward positive.
+    def step(self, now: OnOff, before: OnOff, ticks: float) -> Image:
+        """Advance one step of ``ticks`` on the adapted channels; return the local motion, (H, W), rightward positive.
 
             V = 2 / (1 + exp(-|HS| / (n K_hs))) - 1;   rightward = V if HS > 0;   leftward = -V if HS < 0
 
         Source: paper Sec. II-D gives the ranges; form and K_hs MODEL.md 1.5.
         """
-        on, off = (emd(x, x_before, self.p.emd, dt_ms) for x, x_before in zip(now, before, strict=True))
+        on, off = (emd(x, x_before, self.p.emd, self.clock_ms, ticks) for x, x_before in zip(now, before, strict=True))
         hs = on.total + off.total
         drive = abs(hs) / (on.image.size * self.p.sigmoid_grey2)
         v = min(BELOW_ONE, 2.0 / (1.0 + math.exp(-drive)) - 1.0)
