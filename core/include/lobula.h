@@ -41,15 +41,14 @@ extern "C" {
 enum {
     LOBULA_OK = 0,
     LOBULA_BAD_ARGUMENT = -1, /* a null pointer, a size or a setting that cannot be */
-    LOBULA_BAD_STATE = -2,    /* not a state of lobula_init, or of another ABI */
-    LOBULA_NEED_TICK_SUM = -3 /* the source is faster than the clock: give lobula_net.tick_sum and call again */
+    LOBULA_BAD_STATE = -2     /* not a state of lobula_init, or of another ABI */
 };
 
 /* ---- Settings: the fields, names and units of the Python package, which documents each of them. -------------- */
 /* Numbers are all doubles: switches are 0 or 1, choices count from 0 in the order of the comment. */
 
 typedef struct {
-    double period_ms, max_gap_ms, repeats, repeat_hold_ms, repeat_mean_grey, repeat_max_grey;
+    double period_ms, change_exponent, max_gap_ms, repeats, repeat_hold_ms, repeat_mean_grey, repeat_max_grey;
 } lobula_clock_params;
 
 typedef struct {
@@ -162,7 +161,6 @@ enum {
 typedef struct {
     void *state;     /* lobula_state_size() bytes, aligned to LOBULA_ALIGN; may be copied with memcpy */
     void *workspace; /* lobula_workspace_size() bytes, aligned to LOBULA_ALIGN; holds nothing between calls */
-    float *tick_sum; /* height * width floats, or NULL: only for sources faster than the model clock */
 } lobula_net;
 
 /* ---- Calls. --------------------------------------------------------------------------------------------------- */
@@ -192,9 +190,9 @@ LOBULA_API int lobula_step(const lobula_net *net, const lobula_images *image, do
                            lobula_reading *reading, float *const *taps);
 
 /* Advance by `count` frames, `frames` of them at once (the workspace must be as large); the same numbers as single
- * steps. `turning` is one byte a frame, or NULL. `*done` counts the finished ones, also where the call stops early. */
+ * steps. `turning` is one byte a frame, or NULL. */
 LOBULA_API int lobula_run(const lobula_net *net, const lobula_images *images, const double *times_s,
-                          const uint8_t *turning, int64_t count, int frames, lobula_reading *readings, int64_t *done);
+                          const uint8_t *turning, int64_t count, int frames, lobula_reading *readings);
 
 /* 1 where every float lies in 0..255 (so none is NaN or infinite), else 0. */
 LOBULA_API int lobula_in_range(const lobula_images *image, int width, int height);
@@ -223,7 +221,7 @@ typedef struct {
 typedef struct {
     double frame_s, step_s, started_s, turned_s, held_s;
     int32_t has_frame, has_turned, has_held;
-    int32_t still, flashing, tick_frames;
+    int32_t still, flashing;
     lobula_lgmd_scalars lgmd1, lgmd2;
     double rightward, leftward;
 } lobula_scalars;

@@ -24,18 +24,21 @@ static void forget_old(lobula_state *s, double time_s) {
     s->window_count -= old;
 }
 
+/* One step is never enough: see model/decision.py. */
 static int holds(const lobula_state *s, const lobula_decision_entry *window) {
     const lobula_decision_params *p = &s->params.decision;
+    enum { ALL, LGMDS, LGMD2 } neurons = (int)p->neurons;
     exact lgmd1 = {0.0, 0.0}, lgmd2 = {0.0, 0.0}, lptc = {0.0, 0.0};
+    int steps = 0;
     for (int i = 0; i < s->window_count; i++) {
+        steps += window[i].lgmd2 > 0.0 && (window[i].lgmd1 > 0.0 || neurons == LGMD2);
         exact_add(&lgmd1, window[i].lgmd1);
         exact_add(&lgmd2, window[i].lgmd2);
         exact_add(&lptc, window[i].lptc);
     }
-    enum { ALL, LGMDS, LGMD2 } neurons = (int)p->neurons;
     double a = whole_spikes(&lgmd2), b = whole_spikes(&lptc), other = whole_spikes(&lgmd1);
     if (neurons != LGMD2 && other < a) a = other;
-    return a >= p->collision_spikes && (neurons != ALL || a > p->lptc_weight * b);
+    return steps >= 2 && a >= p->collision_spikes && (neurons != ALL || a > p->lptc_weight * b);
 }
 
 void decision_step(lobula_state *s, double time_s, const int32_t spikes[4], double weight) {

@@ -52,7 +52,7 @@ int layout_init(layout *l, const lobula_params *p, int width, int height) {
     l->planes.count = n;
     l->record = (size_t)n * (size_t)l->stride;
 
-    int reach = larger(larger(l->spacing[0], l->spacing[1]), larger(l->outer_radius, widest_span(&p->lptc.emd)));
+    int reach = larger(larger(l->spacing[0], l->spacing[1]), larger(l->outer_radius, MAX_STRETCH * widest_span(&p->lptc.emd)));
     l->margin = round_up(reach, ROW_FLOATS);
     /* A vector may start at the last margin pixel and run on. */
     l->long_row = l->margin + l->stride + l->margin + ROW_FLOATS;

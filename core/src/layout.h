@@ -9,6 +9,8 @@
 enum { CHANGE, ADAPTED, SOURCES }; /* what an LGMD can read */
 enum { ON, OFF };
 
+#define MAX_STRETCH 4 /* of the EMDs' spans, in long steps */
+
 /* Planes of the state, in the order a row of each is stored; -1 where the settings need none. All rows of the planes
  * at one y lie side by side, so that the step walks through one stream of memory. */
 typedef struct {

@@ -1,4 +1,5 @@
 /* model/network.py: retina, lamina, medulla, neurons, decision, in the paper's order; a few frames at a time. */
+#include <math.h>
 #include <string.h>
 
 #include "clock.h"
@@ -57,7 +58,6 @@ static void rest(lobula_state *s) {
     now->rightward = now->leftward = 0.0;
     now->started_s = 0.0;
     now->flashing = 0;
-    now->tick_frames = 0;
 }
 
 /* After the rows: potentials, spikes, decision. */
@@ -105,11 +105,6 @@ static picture luma_of(lobula_state *s) {
     return p;
 }
 
-static picture tick_image(const call *c) {
-    picture p = {(const char *)c->net->tick_sum, (ptrdiff_t)((size_t)c->e.width * sizeof(float)), LOBULA_FLOAT32};
-    return p;
-}
-
 /* Plan a step of `dt_ms`; `about` says how `image` differs from `previous`. */
 static planned_step *plan(call *c, picture image, picture previous, const change_summary *about, double dt_ms,
                           float *const *taps) {
@@ -117,10 +112,10 @@ static planned_step *plan(call *c, picture image, picture previous, const change
     planned_step *step = &c->step[c->waiting++];
     step_plan *rows = &step->rows;
     change_of_light light = {1.0, 0.0};
-    double ticks = dt_ms / s->params.clock.period_ms, scale = 1.0 / ticks, change = about->mean_abs;
+    double ticks = dt_ms / s->params.clock.period_ms, change = about->mean_abs;
     rows->flash = find_flash(c->k, c->e, image, previous, about, &s->params.flash, &light);
     rows->image = image;
-    rows->scale = (float)scale;
+    rows->scale = (float)pow(ticks, -s->params.clock.change_exponent);
     rows->gain = (float)light.gain;
     rows->offset = (float)light.offset;
     rows->taps = taps;
@@ -131,9 +126,9 @@ static planned_step *plan(call *c, picture image, picture previous, const change
     return step;
 }
 
-static int process(call *c, picture image, double time_s, int turning, lobula_reading *reading, float *const *taps) {
+static void process(call *c, picture image, double time_s, int turning, lobula_reading *reading, float *const *taps) {
     lobula_state *s = c->s;
-    lobula_scalars *now = &s->now, before = *now;
+    lobula_scalars *now = &s->now;
     switch (clock_beat(&s->params.clock, now, time_s)) {
     case BEAT_START:
         flush(c);
@@ -143,27 +138,13 @@ static int process(call *c, picture image, double time_s, int turning, lobula_re
         now->started_s = time_s;
         s->window_count = 0;
         stand(c, time_s, turning, reading, taps);
-        return LOBULA_OK;
+        return;
     case BEAT_WAIT:
-        if (!c->net->tick_sum) {
-            *now = before;
-            flush(c);
-            return LOBULA_NEED_TICK_SUM;
-        }
         flush(c);
         note_turning(s, time_s, turning);
-        if (!now->tick_frames) memset(c->net->tick_sum, 0, (size_t)c->e.width * (size_t)c->e.height * sizeof(float));
-        c->k->tick_add(c->e, image, c->net->tick_sum);
-        now->tick_frames++;
         stand(c, time_s, turning, reading, taps);
-        return LOBULA_OK;
+        return;
     case BEAT_TICK: break;
-    }
-    int averaged = now->tick_frames > 0;
-    if (averaged) {
-        c->k->tick_mean(c->e, image, c->net->tick_sum, (float)(now->tick_frames + 1));
-        image = tick_image(c);
-        now->tick_frames = 0;
     }
     picture previous = c->waiting ? c->step[c->waiting - 1].rows.image : luma_of(s);
     change_summary about = c->k->summarise(c->e, image, previous);
@@ -171,15 +152,15 @@ static int process(call *c, picture image, double time_s, int turning, lobula_re
     if (dt_ms < 0.0) {
         flush(c);
         note_turning(s, time_s, turning);
+        now->flashing = 0;
         stand(c, time_s, turning, reading, taps);
-        return LOBULA_OK;
+        return;
     }
     planned_step *step = plan(c, image, previous, &about, dt_ms, taps);
     step->time_s = time_s;
     step->turning = turning;
     step->reading = reading;
-    if (averaged || c->waiting == c->frames) flush(c);
-    return LOBULA_OK;
+    if (c->waiting == c->frames) flush(c);
 }
 
 static int enter(call *c, const lobula_net *net, const lobula_images *images, int frames) {
@@ -187,7 +168,6 @@ static int enter(call *c, const lobula_net *net, const lobula_images *images, in
     if (images->type != LOBULA_UINT8 && images->type != LOBULA_FLOAT32) return LOBULA_BAD_ARGUMENT;
     lobula_state *s = net->state;
     if (s->magic != STATE_MAGIC || s->abi != LOBULA_ABI) return LOBULA_BAD_STATE;
-    if (s->now.tick_frames && !net->tick_sum) return LOBULA_NEED_TICK_SUM;
     c->s = s;
     c->k = kernels_of(s->isa);
     c->net = net;
@@ -205,27 +185,24 @@ int lobula_step(const lobula_net *net, const lobula_images *image, double time_s
     if (status != LOBULA_OK) return status;
     float_mode mode = float_mode_enter();
     picture p = {image->pixels, image->row_bytes, image->type};
-    status = process(&c, p, time_s, turning != 0, reading, taps);
+    process(&c, p, time_s, turning != 0, reading, taps);
     float_mode_leave(mode);
     return status;
 }
 
 int lobula_run(const lobula_net *net, const lobula_images *images, const double *times_s, const uint8_t *turning,
-               int64_t count, int frames, lobula_reading *readings, int64_t *done) {
+               int64_t count, int frames, lobula_reading *readings) {
     call c;
-    if (!times_s || !readings || !done) return LOBULA_BAD_ARGUMENT;
-    *done = 0;
-    int status = enter(&c, net, images, frames);
+    int status = times_s && readings ? enter(&c, net, images, frames) : LOBULA_BAD_ARGUMENT;
     if (status != LOBULA_OK) return status;
     float_mode mode = float_mode_enter();
-    for (int64_t t = 0; t < count && status == LOBULA_OK; t++) {
+    for (int64_t t = 0; t < count; t++) {
         picture p = {(const char *)images->pixels + (ptrdiff_t)t * images->image_bytes, images->row_bytes, images->type};
-        status = process(&c, p, times_s[t], turning && turning[t], &readings[t], NULL);
-        if (status == LOBULA_OK) *done = t + 1;
+        process(&c, p, times_s[t], turning && turning[t], &readings[t], NULL);
     }
     flush(&c);
     float_mode_leave(mode);
-    return status;
+    return LOBULA_OK;
 }
 
 int lobula_in_range(const lobula_images *image, int width, int height) {

@@ -4,19 +4,19 @@
 #include <string.h>
 
 /* model.filters */
-static double low_pass_share(double dt_ms, double tau_ms) { return dt_ms / (dt_ms + tau_ms); }
+static double low_pass_share(double clock_ms, double tau_ms) { return clock_ms / (clock_ms + tau_ms); }
 
 /* Kernel W of Eq. (1) split into what meets E now and what meets it one step ago: centre, nearest, diagonal. */
 typedef struct {
     double now[3], then[3];
 } rings;
 
-static rings rings_of(const lobula_inhibition_params *p, double dt_ms) {
+static rings rings_of(const lobula_inhibition_params *p, double clock_ms) {
     double weight[3] = {p->centre_weight, p->nearest_weight, p->diagonal_weight};
     double tau_ms[3] = {p->centre_ms, p->nearest_ms, p->diagonal_ms};
     rings r;
     for (int k = 0; k < 3; k++) {
-        r.now[k] = weight[k] * low_pass_share(dt_ms, tau_ms[k]);
+        r.now[k] = weight[k] * low_pass_share(clock_ms, tau_ms[k]);
         r.then[k] = weight[k] - r.now[k];
     }
     return r;
@@ -48,14 +48,14 @@ static int find_or_add(step_plan *p, inhibition_set q) {
 /* A cell whose own inhibition alone is as large as its excitation never speaks, whatever the picture. */
 static int silenced(const rings *r, double bias) { return bias * r->now[0] >= 1.0001; }
 
-static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double dt_ms, double arousal) {
+static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double arousal) {
     const lobula_lgmd_params *q = j ? &s->params.lgmd2 : &s->params.lgmd1;
     const lobula_inhibition_params *inhibition[2] = {&q->on, &q->off};
     double gain[2] = {q->on_gain, q->off_gain}, bias[2];
     rings r[2];
     int speaks[2];
     for (int c = 0; c < 2; c++) {
-        r[c] = rings_of(inhibition[c], dt_ms);
+        r[c] = rings_of(inhibition[c], s->params.clock.period_ms);
         bias[c] = inhibition[c]->bias > arousal ? inhibition[c]->bias : arousal;
         speaks[c] = !silenced(&r[c], bias[c]);
     }
@@ -92,26 +92,33 @@ static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double dt_ms, 
     }
 }
 
-static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double mean_change, double dt_ms) {
-    double share = low_pass_share(dt_ms, p->change_ms);
+static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double mean_change, double clock_ms) {
+    double share = low_pass_share(clock_ms, p->change_ms);
     double smooth = share * mean_change + (1.0 - share) * now->change_before;
     now->change_before = mean_change;
     return smooth / p->change_scale_grey;
+}
+
+/* model/medulla/emd.py: in a long step things go further. */
+static int stretched(int span_px, double ticks) {
+    int far = (int)floor(span_px * (ticks < MAX_STRETCH ? ticks : MAX_STRETCH) + 0.5);
+    return far < 1 ? 1 : far;
 }
 
 void plan_step(lobula_state *s, planned_step *step, double mean_change) {
     const lobula_params *q = &s->params;
     const lobula_emd_params *emd = &q->lptc.emd;
     step_plan *p = &step->rows;
+    double clock_ms = q->clock.period_ms;
     p->residual = (float)pow(q->lamina.on_off.residual, step->ticks);
-    p->fdsr_share = (float)(1.0 - low_pass_share(step->dt_ms, q->lamina.fdsr.rise_ms));
+    p->fdsr_share = (float)(1.0 - low_pass_share(clock_ms, q->lamina.fdsr.rise_ms));
     p->dead_zone = (float)q->lamina.dog.dead_zone_grey;
     p->spans = (int)emd->spans;
     for (int i = 0; i < p->spans; i++) {
-        p->span[i] = (int)emd->spans_px[i];
-        p->span_share[i] = (float)(1.0 - low_pass_share(step->dt_ms, emd->delays_ms[i]));
+        p->span[i] = stretched((int)emd->spans_px[i], step->ticks);
+        p->span_share[i] = (float)(1.0 - low_pass_share(clock_ms, emd->delays_ms[i]));
     }
     p->sets = p->tap_sets = 0;
-    plan_lgmd(s, p, 0, step->dt_ms, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, step->dt_ms));
-    plan_lgmd(s, p, 1, step->dt_ms, arousal(&q->lgmd2, &s->now.lgmd2, mean_change, step->dt_ms));
+    plan_lgmd(s, p, 0, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, clock_ms));
+    plan_lgmd(s, p, 1, arousal(&q->lgmd2, &s->now.lgmd2, mean_change, clock_ms));
 }

@@ -100,16 +100,6 @@ static double lit_change(extent e, picture image, picture previous, float gain, 
     return sum / ((double)e.width * (double)e.height);
 }
 
-static void tick_add(extent e, picture image, float *sum) {
-    for (int y = 0; y < e.height; y++, sum += e.width)
-        for (int x = 0; x < e.width; x++) sum[x] += (float)pixel(&image, y, x);
-}
-
-static void tick_mean(extent e, picture image, float *sum, float frames) {
-    for (int y = 0; y < e.height; y++, sum += e.width)
-        for (int x = 0; x < e.width; x++) sum[x] = (sum[x] + (float)pixel(&image, y, x)) / frames;
-}
-
 static void set_luma(const layout *l, picture image, float *planes) {
     for (int y = 0; y < l->height; y++) {
         float *luma = planes + (size_t)y * l->record + (size_t)l->planes.luma * (size_t)l->stride;

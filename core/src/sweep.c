@@ -163,6 +163,7 @@ static void lamina_row(const picture_state *s, scratch *k, const step_plan *p, i
         lamina_row_as(s, p, inner, r, outer, R, on, off, adapted, before, fdsr);
     for (int c = 0; c < 2; c++) {
         zero_right(adapted[c], l->width, l->margin);
+        if (!fdsr) zero_right(before[c], l->width, 0);
         copy_row(p->taps, LOBULA_TAP_ADAPTED_ON + c, l, y, adapted[c]);
     }
     if (p->taps && p->taps[LOBULA_TAP_LAMINA]) edges_tap(s, p, inner, outer, row_of(&k->change, y), y);
@@ -221,7 +222,7 @@ static void set_row(const layout *l, scratch *k, const inhibition_set *q, const 
         else
             inhibition_row(n, q, s, now, before, mine, hands_on, NULL, NULL, NULL, WEIGH_ONLY);
         if (competes && mid - s < 0) compete_row(n, middle, above, hands_on, out);
-    } else {
+    } else if (competes) {
         compete_row(n, middle, above, row_of(across, l->height - 1), out);
     }
 }
@@ -388,6 +389,6 @@ static size_t tap_bytes(const layout *l) {
 
 const kernels KERNELS = {
     ISA_NAME,   isa_runs,   scratch_bytes, tap_bytes, summarise, coverage, light,
-    light_rest, lit_change, tick_add,      tick_mean, set_luma,  sweep,    in_range,
+    light_rest, lit_change, set_luma,      sweep,     in_range,
     area_average,
 };

@@ -85,9 +85,6 @@ typedef struct {
     double (*light_rest)(extent e, picture image, picture previous, double limit, double gain, double offset);
     /* mean |image - (gain previous + offset)| */
     double (*lit_change)(extent e, picture image, picture previous, float gain, float offset);
-    /* tick mean: image joins sum; or sum becomes (sum + image) / frames */
-    void (*tick_add)(extent e, picture image, float *sum);
-    void (*tick_mean)(extent e, picture image, float *sum, float frames);
     void (*set_luma)(const layout *l, picture image, float *planes);
     /* Take `n` frames through all rows together. */
     void (*sweep)(const layout *l, const float *kernel, float *planes, char *workspace, step_plan *plans, int n);

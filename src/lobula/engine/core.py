@@ -18,7 +18,6 @@ from .library import available, isa_index, library
 from .structures import Images, Net, Scalars, core_params
 
 ALIGN = 64
-NEED_TICK_SUM = -3
 TYPES = {np.dtype(np.uint8): 0, np.dtype(np.float32): 1}
 COPIED_BYTES = 1 << 18
 """Up to this size a picture is copied to a fixed place: cheaper than asking NumPy where it lies."""
@@ -60,7 +59,6 @@ class CoreNetwork:
         self._core = library()
         settings = core_params(p)
         self._state = Memory(self._core.lobula_state_size(settings, width, height))
-        self._tick_sum: Image | None = None
         self._net = Net(state=self._state.address)
         self.use(workspace or Workspace(p, shape))
         if self._core.lobula_init(self._state.address, settings, width, height, isa_index()):
@@ -97,9 +95,6 @@ class CoreNetwork:
         maps = {name: np.empty(self.shape, np.float32) for name in taps}
         pointers = _pointers(maps) if maps else None
         status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
-        if status == NEED_TICK_SUM:
-            self._bind_tick_sum()
-            status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
         if status:
             raise RuntimeError(f"the C core failed with code {status}")
         t, lgmd1, lgmd2, right, left, *spikes, collision, state = READING.unpack(self._reading)
@@ -117,41 +112,26 @@ class CoreNetwork:
         times_s = np.ascontiguousarray(times_s, np.float64)
         turns = None if turning is None else np.ascontiguousarray(turning, np.uint8)
         readings = np.empty(count, READING_DTYPE)
-        finished = ctypes.c_int64()
-        first, done = pictures.pixels, 0
-        while done < count:
-            pictures.pixels = first + done * pictures.image_bytes
-            status = self._core.lobula_run(
-                self._net_at, ctypes.byref(pictures), times_s[done:].ctypes.data,
-                None if turns is None else turns[done:].ctypes.data, count - done, self._workspace.frames,
-                readings[done:].ctypes.data, ctypes.byref(finished),
-            )  # fmt: skip
-            done += finished.value
-            if status == NEED_TICK_SUM:
-                self._bind_tick_sum()
-            elif status:
-                raise RuntimeError(f"the C core failed with code {status}")
+        status = self._core.lobula_run(
+            self._net_at, ctypes.byref(pictures), times_s.ctypes.data, None if turns is None else turns.ctypes.data,
+            count, self._workspace.frames, readings.ctypes.data,
+        )  # fmt: skip
+        if status:
+            raise RuntimeError(f"the C core failed with code {status}")
         return _trace(readings)
-
-    def _bind_tick_sum(self) -> Image:
-        self._tick_sum = np.zeros(self.shape, np.float32)
-        self._net.tick_sum = self._tick_sum.ctypes.data
-        return self._tick_sum
 
     def state_dict(self) -> StateDict:
         """Return a copy of everything it remembers; ``model.state.NAMES`` lists the entries."""
         state: StateDict = {}
-        for number, name in enumerate(PLANES[:-1]):
+        for number, name in enumerate(PLANES):
             state[name] = np.empty(self.shape, np.float32)
             self._core.lobula_get_plane(self._state.address, number, state[name].ctypes.data)
         now = Scalars()
         self._core.lobula_get_scalars(self._state.address, now)
-        waiting = self._tick_sum if now.tick_frames else None
-        state["tick_sum"] = np.zeros(self.shape, np.float32) if waiting is None else waiting.copy()
         known = {"step_s": True, "started_s": True, "frame_s": now.has_frame, "turned_s": now.has_turned,
                  "held_s": now.has_held}  # fmt: skip
         state |= {name: getattr(now, name) if known[name] else math.nan for name in TIMES}
-        numbers = [bool(now.still), bool(now.flashing), now.tick_frames]
+        numbers = [bool(now.still), bool(now.flashing)]
         for lgmd in (now.lgmd1, now.lgmd2):
             numbers += [lgmd.raw, lgmd.potential, lgmd.change_before]
         state |= dict(zip(NUMBERS, [*numbers, now.rightward, now.leftward], strict=True))
@@ -167,11 +147,11 @@ class CoreNetwork:
         ParameterError, ShapeError : an entry that is missing or of another size
         """
         check_state(state, self.shape)
-        for number, name in enumerate(PLANES[:-1]):
+        for number, name in enumerate(PLANES):
             plane = np.ascontiguousarray(state[name], np.float32)
             self._core.lobula_set_plane(self._state.address, number, plane.ctypes.data)
         now = Scalars(still=bool(state["still"]), flashing=bool(state["flashing"]),
-                      tick_frames=int(state["tick_frames"]), rightward=state["lptc_r"], leftward=state["lptc_l"])
+                      rightward=state["lptc_r"], leftward=state["lptc_l"])
         for name in TIMES:
             if not math.isnan(state[name]):
                 setattr(now, name, float(state[name]))
@@ -182,8 +162,6 @@ class CoreNetwork:
             lgmd.raw, lgmd.potential = state[f"{name}_raw"], state[f"{name}_potential"]
             lgmd.change_before = state[f"{name}_change_before"]
         self._core.lobula_set_scalars(self._state.address, now)
-        if now.tick_frames:
-            self._bind_tick_sum()[...] = state["tick_sum"]
         window = np.ascontiguousarray(state["window"], np.float64)
         window = window[-self._core.lobula_window_capacity(self._state.address) :]
         self._core.lobula_set_window(self._state.address, window.ctypes.data, len(window))

@@ -17,7 +17,8 @@ NOT_IN_CORE = {"origins", "turning_deg_s"}
 
 class ClockParams(Structure):
     _fields_ = [(n, c_double) for n in (
-        "period_ms", "max_gap_ms", "repeats", "repeat_hold_ms", "repeat_mean_grey", "repeat_max_grey")]
+        "period_ms", "change_exponent", "max_gap_ms", "repeats", "repeat_hold_ms", "repeat_mean_grey",
+        "repeat_max_grey")]
 
 
 class FlashParams(Structure):
@@ -125,7 +126,7 @@ class Images(Structure):
 class Net(Structure):
     """``lobula_net``: the memory of one network."""
 
-    _fields_ = [("state", c_void_p), ("workspace", c_void_p), ("tick_sum", c_void_p)]
+    _fields_ = [("state", c_void_p), ("workspace", c_void_p)]
 
 
 class LgmdScalars(Structure):
@@ -137,7 +138,7 @@ class Scalars(Structure):
 
     _fields_ = [
         *((n, c_double) for n in ("frame_s", "step_s", "started_s", "turned_s", "held_s")),
-        *((n, c_int32) for n in ("has_frame", "has_turned", "has_held", "still", "flashing", "tick_frames")),
+        *((n, c_int32) for n in ("has_frame", "has_turned", "has_held", "still", "flashing")),
         ("lgmd1", LgmdScalars), ("lgmd2", LgmdScalars), ("rightward", c_double), ("leftward", c_double),
     ]  # fmt: skip
 
@@ -166,7 +167,7 @@ SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "lobula_reset": (ctypes.c_int, [c_void_p]),
     "lobula_step": (ctypes.c_int, [c_void_p, c_void_p, c_double, ctypes.c_int, c_void_p, c_void_p]),
     "lobula_run": (ctypes.c_int, [
-        c_void_p, c_void_p, c_void_p, c_void_p, ctypes.c_int64, ctypes.c_int, c_void_p, c_void_p]),
+        c_void_p, c_void_p, c_void_p, c_void_p, ctypes.c_int64, ctypes.c_int, c_void_p]),
     "lobula_in_range": (ctypes.c_int, [c_void_p, ctypes.c_int, ctypes.c_int]),
     "lobula_get_plane": (ctypes.c_int, [c_void_p, ctypes.c_int, c_void_p]),
     "lobula_set_plane": (ctypes.c_int, [c_void_p, ctypes.c_int, c_void_p]),
