@@ -1,0 +1,70 @@
+"""A video clip to measure with, decoding it, and taking it all the way to decisions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..frames import open as open_frames
+from .network import network
+from .scenes import RATE_HZ, Images, scenes
+from .timing import Pass
+
+CLIP_SIZE = (640, 480)
+CODEC = "libx264"
+
+
+def write_clip(path: Path, images: Iterable[Images]) -> None:
+    """Write pictures (H, W) uint8 as H.264 with the encoder's own defaults.
+
+    Raises
+    ------
+    ImportError : PyAV is not installed
+    ValueError, OSError : it has no H.264 encoder, or the file cannot be written
+    """
+    import av
+
+    with av.open(str(path), "w") as container:
+        stream: Any = container.add_stream(CODEC, rate=round(RATE_HZ))
+        stream.width, stream.height = CLIP_SIZE
+        stream.pix_fmt = "yuv420p"
+        for image in images:
+            frame = av.VideoFrame.from_ndarray(np.ascontiguousarray(image), format="gray")
+            container.mux(stream.encode(frame))
+        container.mux(stream.encode())
+
+
+def clip_pictures(frames: int) -> Images:
+    """Return the pictures of the clip: a robot that comes and goes, ``frames`` of them."""
+    return scenes(*CLIP_SIZE, frames)["approach"]
+
+
+def decode_only(path: Path) -> Pass:
+    """Return a pass that decodes every picture on one thread, as ``lobula.open`` does, and looks at none."""
+    import av
+
+    def work() -> int:
+        with av.open(str(path)) as container:
+            stream = container.streams.video[0]
+            stream.codec_context.thread_type = "SLICE"
+            stream.codec_context.thread_count = 1
+            return sum(1 for _ in container.decode(stream))
+
+    return work
+
+
+def to_decisions(path: Path, engine: str = "auto") -> Pass:
+    """Return a pass from the file to a decision on every picture, at the default working size."""
+
+    def work() -> int:
+        net, frames = network(engine), 0
+        with open_frames(path) as pictures:
+            for picture in pictures:
+                net.step(picture)
+                frames += 1
+        return frames
+
+    return work
