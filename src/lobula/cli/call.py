@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 import warnings
@@ -40,6 +41,11 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         return 0
     except LobulaError as error:
         return _complain(str(error), 3 if _on_the_way(error) else 2)
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EIO):
+            raise
+        _silence(sys.stdout)  # what could not be printed: files are written under their own names, with their own words
+        return _complain(f"cannot write standard output: {error.strerror}", 3)
     except (KeyboardInterrupt, typer.Abort):
         return _complain("interrupted", 130)
     except _ParserError as error:

@@ -45,7 +45,8 @@ def _telling(trace: NDArray[np.void]) -> NDArray[np.void]:
     """The trace until shortly after the last spike, so that the spikes are in the seconds that the strip shows."""
     spiking = np.any([trace[f"spikes_{neuron}"] > 0 for neuron in NEURONS], axis=0)
     last_s = trace["time_s"][spiking][-1] if spiking.any() else trace["time_s"][-1]
-    return trace[trace["time_s"] <= max(last_s + 0.5, trace["time_s"][0] + SPAN_S)]
+    told: NDArray[np.void] = trace[trace["time_s"] <= max(last_s + 0.5, trace["time_s"][0] + SPAN_S)]
+    return told
 
 
 def _tiles(scene: Scene) -> list[Tile]:

@@ -32,15 +32,15 @@ class Outputs:
         return bool(self._sinks) and not self._alive
 
     def open(self, header: Mapping[str, Any]) -> None:
-        """Open every sink.
+        """Open every sink, the last one first: its record of how a run ended is not to be lost by another's failure.
 
         Raises
         ------
         LobulaError : an output cannot be started at all, as in a folder that does not exist; a full disk is no such
             case, since it says nothing against the request
         """
-        for sink in self._sinks:
-            self._tried.append(sink)
+        for sink in reversed(self._sinks):
+            self._tried.insert(0, sink)
             try:
                 sink.open(header)
             except LobulaError as error:
@@ -48,7 +48,7 @@ class Outputs:
                     raise
                 self._note(error)
             else:
-                self._alive.append(sink)
+                self._alive.insert(0, sink)
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Hand a reading to the sinks."""
