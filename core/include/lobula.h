@@ -219,7 +219,7 @@ typedef struct {
 
 /* A time that was never set is told by its has_ flag. */
 typedef struct {
-    double frame_s, step_s, started_s, turned_s, held_s;
+    double frame_s, tick_s, step_s, started_s, turned_s, held_s;
     int32_t has_frame, has_turned, has_held;
     int32_t still, flashing;
     lobula_lgmd_scalars lgmd1, lgmd2;

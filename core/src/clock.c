@@ -6,12 +6,14 @@ beat clock_beat(const lobula_clock_params *p, lobula_scalars *now, double time_s
     now->frame_s = time_s;
     now->has_frame = 1;
     if (first || (time_s - before) * 1000.0 > p->max_gap_ms) {
-        now->step_s = time_s;
+        now->tick_s = now->step_s = time_s;
         now->still = 0;
         return BEAT_START;
     }
-    double interval_ms = (time_s - before) * 1000.0, elapsed_ms = (time_s - now->step_s) * 1000.0;
-    return elapsed_ms + 0.5 * interval_ms < p->period_ms ? BEAT_WAIT : BEAT_TICK;
+    double interval_ms = (time_s - before) * 1000.0, elapsed_ms = (time_s - now->tick_s) * 1000.0;
+    if (elapsed_ms + 0.5 * interval_ms < p->period_ms) return BEAT_WAIT;
+    now->tick_s = time_s;
+    return BEAT_TICK;
 }
 
 double clock_advances(const lobula_clock_params *p, lobula_scalars *now, double time_s, double mean_abs,

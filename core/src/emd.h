@@ -7,42 +7,50 @@
 
 #include "scratch.h"
 
-INLINE vf pull(const float *adapted, const int *span, const float *share, int spans) {
-    vf sum = vf_all(0.0f);
-    UNROLL for (int i = 0; i < spans; i++)
-        sum += vf_all(share[i]) * (vf_load(adapted + span[i]) - vf_load(adapted - span[i]));
+INLINE vf pull(const float *adapted, const int *span, const vf *share, int spans) {
+    vf sum = share[0] * (vf_load(adapted + span[0]) - vf_load(adapted - span[0]));
+    UNROLL for (int i = 1; i < spans; i++)
+        sum += share[i] * (vf_load(adapted + span[i]) - vf_load(adapted - span[i]));
     return sum;
 }
 
 /* `adapted` rows have zero margins. `kept` is the state's row: ON - OFF, since a cell is never both, read as the step
- * before and written as this one. */
-INLINE void emd_row_as(int n, const float *on, const float *off, float *restrict kept, const int *span,
-                       const float *share, int spans, vd *hs) {
-    vf zero = vf_all(0.0f);
-    vd sum = *hs;
+ * before and written as this one; the halves of the step before go to `before` where the LGMDs read them. */
+INLINE vd emd_row_as(int n, const float *on, const float *off, float *restrict kept, float *restrict on_before,
+                     float *restrict off_before, const int *span, const float *span_share, int spans, int lgmds,
+                     vd sum) {
+    vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f);
+    for (int i = 0; i < spans; i++) share[i] = vf_all(span_share[i]);
     for (int x = 0; x < n; x += LANES) {
-        vf before = vf_load(kept + x);
+        vf before = vf_load(kept + x), rising = vf_max(before, zero), falling = vf_max(zero - before, zero);
         vf_store(kept + x, vf_load(on + x) - vf_load(off + x));
-        vd_add(&sum, vf_max(before, zero) * pull(on + x, span, share, spans) -
-                         vf_min(before, zero) * pull(off + x, span, share, spans));
+        if (lgmds) {
+            vf_store(on_before + x, rising);
+            vf_store(off_before + x, falling);
+        }
+        vd_add(&sum, rising * pull(on + x, span, share, spans) + falling * pull(off + x, span, share, spans));
     }
-    *hs = sum;
+    return sum;
 }
 
-static void emd_row(int n, const float *on, const float *off, float *kept, const step_plan *p, vd *hs) {
-    static const int usual[4] = {1, 2, 3, 4};
-    if (p->spans == 4 && memcmp(p->span, usual, sizeof usual) == 0)
-        emd_row_as(n, on, off, kept, usual, p->span_share, 4, hs);
-    else
-        emd_row_as(n, on, off, kept, p->span, p->span_share, p->spans, hs);
-}
-
-/* Where adaptation is off the channels overlap: the step before comes in rows of its own. */
-static void emd_row_apart(int n, const float *on, const float *off, const float *on_before, const float *off_before,
-                          const step_plan *p, vd *hs) {
+/* Where adaptation is off the channels overlap: the step before came in rows of its own. */
+static vd emd_row_apart(int n, const float *on, const float *off, const float *on_before, const float *off_before,
+                        const step_plan *p, vd sum) {
+    vf share[LOBULA_MAX_SPANS];
+    for (int i = 0; i < LOBULA_MAX_SPANS; i++) share[i] = vf_all(p->span_share[i]);
     for (int x = 0; x < n; x += LANES)
-        vd_add(hs, vf_load(on_before + x) * pull(on + x, p->span, p->span_share, p->spans) +
-                       vf_load(off_before + x) * pull(off + x, p->span, p->span_share, p->spans));
+        vd_add(&sum, vf_load(on_before + x) * pull(on + x, p->span, share, p->spans) +
+                         vf_load(off_before + x) * pull(off + x, p->span, share, p->spans));
+    return sum;
+}
+
+static vd emd_row(int n, const float *on, const float *off, float *kept, float *const *before, const step_plan *p,
+                  int lgmds, vd sum) {
+    static const int usual[4] = {1, 2, 3, 4};
+    if (p->spans != 4 || memcmp(p->span, usual, sizeof usual) != 0)
+        return emd_row_as(n, on, off, kept, before[ON], before[OFF], p->span, p->span_share, p->spans, lgmds, sum);
+    return lgmds ? emd_row_as(n, on, off, kept, before[ON], before[OFF], usual, p->span_share, 4, 1, sum)
+                 : emd_row_as(n, on, off, kept, NULL, NULL, usual, p->span_share, 4, 0, sum);
 }
 
 static float part_of(float kept, float sign) { return sign * kept > 0.0f ? sign * kept : 0.0f; }

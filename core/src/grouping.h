@@ -23,36 +23,41 @@ INLINE void column_row(int n, const float *above, const float *middle, const flo
         vf_store(column + x, vf_load(above + x) + vf_load(middle + x) + vf_load(below + x));
 }
 
-/* Sum of the neighbourhood times S, nine times too large; `limit` is what passes so far. */
-INLINE float *group_row(int width, int s, const float *sum, const float *column, float limit, vf *strongest,
-                        float *list) {
-    int whole = width / LANES * LANES;
-    vf highest = *strongest, least = vf_all(limit);
-    for (int x = 0; x < whole; x += LANES) {
-        vf around = vf_load(column + x - s) + vf_load(column + x) + vf_load(column + x + s);
-        vf grouped = vf_load(sum + x) * around;
-        highest = vf_max(highest, around);
-        vf_store(list, grouped);
-        list += vm_any(vf_ge(grouped, least)) ? LANES : 0;
-    }
-    if (whole < width) {
-        vm inside = vm_first(width - whole);
-        vf around = vf_keep(inside, vf_load(column + whole - s) + vf_load(column + whole) + vf_load(column + whole + s));
-        vf grouped = vf_load(sum + whole) * around;
-        highest = vf_max(highest, around);
-        vf_store(list, grouped);
-        list += vm_any(vf_ge(grouped, least)) ? LANES : 0;
-    }
-    *strongest = highest;
-    return list;
+typedef struct {
+    vf strongest;
+    float *list; /* its end */
+} grouped;
+
+INLINE grouped group_vector(vf sum, vf around, vf least, grouped g) {
+    vf product = sum * around;
+    g.strongest = vf_max(g.strongest, around);
+    vf_store(g.list, product);
+    g.list += vm_any(vf_ge(product, least)) ? LANES : 0;
+    return g;
 }
 
-INLINE void total_row(int width, const float *sum, vd *total) {
+/* S times the sum of its neighbourhood, nine times too large; `limit` is what passes so far. */
+INLINE grouped group_row(int width, int s, const float *sum, const float *column, float limit, grouped g) {
+    int whole = width / LANES * LANES;
+    vf least = vf_all(limit);
+    for (int x = 0; x < whole; x += LANES)
+        g = group_vector(vf_load(sum + x), vf_load(column + x - s) + vf_load(column + x) + vf_load(column + x + s),
+                         least, g);
+    if (whole < width) {
+        const float *last = column + whole;
+        vf around = vf_load(last - s) + vf_load(last) + vf_load(last + s);
+        g = group_vector(vf_load(sum + whole), vf_keep(vm_first(width - whole), around), least, g);
+    }
+    return g;
+}
+
+INLINE vd total_row(int width, const float *sum, vd total) {
     int whole = width / LANES * LANES;
     vf row = vf_all(0.0f);
     for (int x = 0; x < whole; x += LANES) row += vf_load(sum + x);
     if (whole < width) row += vf_keep(vm_first(width - whole), vf_load(sum + whole));
-    vd_add(total, row);
+    vd_add(&total, row);
+    return total;
 }
 
 INLINE double total_of_list(const float *list, const float *end, float least) {

@@ -6,28 +6,28 @@
 
 #include "scratch.h"
 
-/* model.lamina.dog.gaussian_blur along a row, both fields at once: the kernels are symmetric, so pairs of pixels are
- * added up first and serve both. `change` has margins. Weights from the centre outwards. */
-INLINE void blur_along(const float *restrict change, int n, const float *inner, int r, const float *outer, int R,
-                       float *restrict e, float *restrict i) {
+/* model.lamina.dog.gaussian_blur down the columns, both fields at once: the kernels are symmetric, so pairs of pixels
+ * are added up first and serve both. `rows` are those around the present one, which is rows[R]; weights go from the
+ * centre outwards. Adding rows first and columns second, or the other way round, is the same but for rounding. */
+INLINE void blur_down(float *const *rows, int n, const float *inner, int r, const float *outer, int R,
+                      float *restrict e, float *restrict i) {
     for (int x = 0; x < n; x += LANES) {
-        vf middle = vf_load(change + x);
+        vf middle = vf_load(rows[R] + x);
         vf a = vf_all(inner[0]) * middle, b = vf_all(outer[0]) * middle;
-        UNROLL for (int k = 1; k <= r; k++) {
-            vf pair = vf_load(change + x - k) + vf_load(change + x + k);
-            a += vf_all(inner[k]) * pair;
+        UNROLL for (int k = 1; k <= R; k++) {
+            vf pair = vf_load(rows[R - k] + x) + vf_load(rows[R + k] + x);
+            if (k <= r) a += vf_all(inner[k]) * pair;
             b += vf_all(outer[k]) * pair;
         }
-        UNROLL for (int k = r + 1; k <= R; k++) b += vf_all(outer[k]) * (vf_load(change + x - k) + vf_load(change + x + k));
         vf_store(e + x, a);
         vf_store(i + x, b);
     }
 }
 
-/* The same down a column, x onwards; rows[R] is the middle one. */
-INLINE vf blur_down(float *const *rows, int x, const float *weights, int R) {
-    vf sum = vf_all(weights[0]) * vf_load(rows[R] + x);
-    UNROLL for (int k = 1; k <= R; k++) sum += vf_all(weights[k]) * (vf_load(rows[R - k] + x) + vf_load(rows[R + k] + x));
+/* The same along a row, which has margins. */
+INLINE vf blur_along(const float *row, const float *weights, int R) {
+    vf sum = vf_all(weights[0]) * vf_load(row);
+    UNROLL for (int k = 1; k <= R; k++) sum += vf_all(weights[k]) * (vf_load(row - k) + vf_load(row + k));
     return sum;
 }
 
@@ -35,14 +35,16 @@ typedef struct {
     vf on, off;
 } on_off;
 
-/* model.lamina.dog.difference_of_gaussians, its positive and its negative part */
-INLINE on_off edges(vf e, vf i, float dead_zone) {
+/* model.lamina.dog.difference_of_gaussians, its positive and its negative part; `below` is -dead_zone, or less than
+ * any number but zero where there is none, since e = 0 belongs to ON */
+INLINE on_off edges(vf e, vf i, vf dead_zone, vf below) {
     vf size = vf_abs(e - i), zero = vf_all(0.0f);
-    float below = dead_zone > FLT_MIN ? dead_zone : FLT_MIN; /* without a dead zone, e = 0 belongs to ON */
-    on_off x = {vf_keep(vm_and(vf_ge(e, vf_all(dead_zone)), vf_ge(i, zero)), size),
-                vf_keep(vm_and(vf_ge(vf_all(-below), e), vf_gt(zero, i)), size)};
+    on_off x = {vf_keep(vm_and(vf_ge(e, dead_zone), vf_ge(i, zero)), size),
+                vf_keep(vm_and(vf_ge(below, e), vf_gt(zero, i)), size)};
     return x;
 }
+
+INLINE vf below_zone(float dead_zone) { return vf_all(dead_zone > FLT_MIN ? -dead_zone : -FLT_MIN); }
 
 INLINE on_off halves(vf change) {
     vf zero = vf_all(0.0f);
@@ -50,23 +52,57 @@ INLINE on_off halves(vf change) {
     return x;
 }
 
-/* model.lamina.on_off and model.lamina.fdsr for one row: `on` and `off` hold the channels of the step before and
- * receive those of this one. */
-INLINE void adapt_channels(int x, on_off signal, const step_plan *p, float *on, float *off, float *adapted_on,
-                           float *adapted_off, float *before_on, float *before_off, int fdsr) {
-    vf on_before = vf_load(on + x), off_before = vf_load(off + x), zero = vf_all(0.0f);
-    vf on_now = signal.on + vf_all(p->residual) * on_before, off_now = signal.off + vf_all(p->residual) * off_before;
-    vf_store(on + x, on_now);
-    vf_store(off + x, off_now);
+/* The rows of both channels: `kept` in the state, this step's over the one before; `adapted` for the layers that
+ * follow; and `before`, the adapted ones of the step before, only where adaptation is off. */
+typedef struct {
+    float *kept[2], *adapted[2], *before[2];
+} lamina_rows;
+
+/* model.lamina.on_off and model.lamina.fdsr of one channel */
+INLINE void adapt(vf signal, vf residual, vf share, float *kept, float *adapted, float *before, int fdsr) {
+    vf then = vf_load(kept), now = signal + residual * then;
+    vf_store(kept, now);
     if (fdsr) {
-        vf share = vf_all(p->fdsr_share);
-        vf_store(adapted_on + x, vf_max(share * (on_now - on_before), zero));
-        vf_store(adapted_off + x, vf_max(share * (off_now - off_before), zero));
+        vf_store(adapted, vf_max(share * (now - then), vf_all(0.0f)));
     } else {
-        vf_store(adapted_on + x, on_now);
-        vf_store(adapted_off + x, off_now);
-        vf_store(before_on + x, on_before);
-        vf_store(before_off + x, off_before);
+        vf_store(adapted, now);
+        vf_store(before, then);
+    }
+}
+
+/* `e` and `i` are blurred down the columns and have margins. */
+INLINE void lamina_row_as(int n, const float *e, const float *i, const float *inner, int r, const float *outer, int R,
+                          const step_plan *p, const lamina_rows *rows, int fdsr) {
+    lamina_rows q = *rows;
+    vf dead_zone = vf_all(p->dead_zone), below = below_zone(p->dead_zone);
+    vf residual = vf_all(p->residual), share = vf_all(p->fdsr_share);
+    for (int x = 0; x < n; x += LANES) {
+        on_off edge = edges(blur_along(e + x, inner, r), blur_along(i + x, outer, R), dead_zone, below);
+        adapt(edge.on, residual, share, q.kept[0] + x, q.adapted[0] + x, q.before[0] + x, fdsr);
+        adapt(edge.off, residual, share, q.kept[1] + x, q.adapted[1] + x, q.before[1] + x, fdsr);
+    }
+}
+
+/* Where the DoG is off, the change goes on as it is. */
+static void lamina_row_unfiltered(int n, const float *change, const step_plan *p, const lamina_rows *rows, int fdsr) {
+    lamina_rows q = *rows;
+    vf residual = vf_all(p->residual), share = vf_all(p->fdsr_share);
+    for (int x = 0; x < n; x += LANES) {
+        on_off half = halves(vf_load(change + x));
+        adapt(half.on, residual, share, q.kept[0] + x, q.adapted[0] + x, q.before[0] + x, fdsr);
+        adapt(half.off, residual, share, q.kept[1] + x, q.adapted[1] + x, q.before[1] + x, fdsr);
+    }
+}
+
+/* The signed edges themselves, only for a tap. */
+static void edges_map(int width, const float *e, const float *i, const float *inner, int r, const float *outer, int R,
+                      float dead_zone, float *map) {
+    for (int x = 0; x < width; x += LANES) {
+        float row[LANES];
+        on_off edge = edges(blur_along(e + x, inner, r), blur_along(i + x, outer, R), vf_all(dead_zone),
+                            below_zone(dead_zone));
+        vf_store(row, edge.on - edge.off);
+        for (int lane = 0; lane < LANES && x + lane < width; lane++) map[x + lane] = row[lane];
     }
 }
 

@@ -8,6 +8,12 @@ static int larger(int a, int b) { return a > b ? a : b; }
 
 static int round_up(int n, int multiple) { return (n + multiple - 1) / multiple * multiple; }
 
+static int power_of_two(int at_least) {
+    int n = 1;
+    while (n < at_least) n *= 2;
+    return n;
+}
+
 static size_t aligned(size_t bytes) { return (bytes + LOBULA_ALIGN - 1) / LOBULA_ALIGN * LOBULA_ALIGN; }
 
 static int between(double value, double low, double high) { return value >= low && value <= high; } /* false on NaN */
@@ -16,7 +22,7 @@ static int possible(const lobula_params *p) {
     const lobula_lgmd_params *lgmds[2] = {&p->lgmd1, &p->lgmd2};
     int ok = between(p->clock.period_ms, 1.0, 1e4) && between(p->decision.window_ms, 0.0, 1e4) &&
              between(p->lamina.dog.radius_px, 1, 32) && between(p->lamina.dog.surround, 1, 4) &&
-             between(p->lamina.dog.sigma_px, 1e-3, 1e3) && between(p->lptc.emd.spans, 0, LOBULA_MAX_SPANS);
+             between(p->lamina.dog.sigma_px, 1e-3, 1e3) && between(p->lptc.emd.spans, 1, LOBULA_MAX_SPANS);
     for (int i = 0; ok && i < (int)p->lptc.emd.spans; i++) ok = between(p->lptc.emd.spans_px[i], 1, 256);
     for (int j = 0; ok && j < 2; j++) ok = between(lgmds[j]->neighbour_px, 1, 256) && between(lgmds[j]->reads, 0, 1);
     return ok;
@@ -56,7 +62,7 @@ int layout_init(layout *l, const lobula_params *p, int width, int height) {
     l->margin = round_up(reach, ROW_FLOATS);
     /* A vector may start at the last margin pixel and run on. */
     l->long_row = l->margin + l->stride + l->margin + ROW_FLOATS;
-    l->ring = 2 * larger(l->spacing[0], l->spacing[1]) + 2;
+    l->ring = power_of_two(2 * larger(l->spacing[0], l->spacing[1]) + 2);
 
     /* Steps are at least two thirds of a tick apart (clock.c), and older spikes leave as new ones come. */
     l->window_capacity = (int)ceil(p->decision.window_ms / (0.6 * p->clock.period_ms)) + 2;

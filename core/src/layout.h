@@ -9,6 +9,8 @@
 enum { CHANGE, ADAPTED, SOURCES }; /* what an LGMD can read */
 enum { ON, OFF };
 
+#define MAX_RADIUS (32 * 4) /* of the DoG's outer field */
+
 #define MAX_STRETCH 4 /* of the EMDs' spans, in long steps */
 
 /* Planes of the state, in the order a row of each is stored; -1 where the settings need none. All rows of the planes

@@ -3,11 +3,64 @@
 #define LOBULA_RETINA_H
 
 #include "picture.h"
+#include "scratch.h"
 
-/* model.retina.frame_difference */
-INLINE vf frame_difference(vf now, vf luma, const step_plan *p) {
-    if (p->flash) luma = vf_all(p->gain) * luma + vf_all(p->offset);
-    return (now - luma) * vf_all(p->scale);
+/* A row of the retina: the luma and the channels of the change in the state, this step's over the one before; the
+ * change; and what excites the LGMDs, where they read it. */
+typedef struct {
+    float *luma, *change, *kept[2], *excitation[E_ROWS];
+} retina_rows;
+
+/* What a vector needs of the plan, as vectors. */
+typedef struct {
+    vf scale, gain, offset, residual;
+} retina_constants;
+
+INLINE void excite(int x, vf signal, vf residual, float *kept, float *now_row, float *before_row) {
+    vf before = vf_load(kept + x), now = signal + residual * before;
+    vf_store(kept + x, now);
+    vf_store(now_row + x, now);
+    vf_store(before_row + x, before);
+}
+
+/* model.retina.frame_difference, and where the LGMDs read it its ON and OFF channels (model.lamina.on_off) */
+INLINE void retina_vector(int x, vf now, const retina_constants *c, const retina_rows *r, int flash, int excites) {
+    vf luma = vf_load(r->luma + x), zero = vf_all(0.0f);
+    if (flash) luma = c->gain * luma + c->offset;
+    vf change = (now - luma) * c->scale;
+    vf_store(r->luma + x, now);
+    vf_store(r->change + x, change);
+    if (excites) {
+        excite(x, vf_max(change, zero), c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
+        excite(x, vf_max(zero - change, zero), c->residual, r->kept[OFF], r->excitation[E_OFF],
+               r->excitation[E_OFF_BEFORE]);
+    }
+}
+
+INLINE void retina_row_as(int width, const step_plan *p, const char *image, int type, const retina_rows *rows, int flash,
+                          int excites) {
+    int whole = width / LANES * LANES;
+    retina_rows r = *rows;
+    retina_constants c = {vf_all(p->scale), vf_all(p->gain), vf_all(p->offset), vf_all(p->residual)};
+    for (int x = 0; x < whole; x += LANES) retina_vector(x, pixels_at(image, type, x), &c, &r, flash, excites);
+    if (whole < width) retina_vector(whole, last_pixels(image, type, whole, width), &c, &r, flash, excites);
+}
+
+INLINE void retina_row_of(int width, const step_plan *p, const char *image, const retina_rows *r, int excites) {
+    if (p->flash)
+        retina_row_as(width, p, image, p->image.type, r, 1, excites);
+    else if (p->image.type == LOBULA_UINT8)
+        retina_row_as(width, p, image, LOBULA_UINT8, r, 0, excites);
+    else
+        retina_row_as(width, p, image, LOBULA_FLOAT32, r, 0, excites);
+}
+
+static void retina_row_excites(int width, const step_plan *p, const char *image, const retina_rows *r) {
+    retina_row_of(width, p, image, r, 1);
+}
+
+static void retina_row_alone(int width, const step_plan *p, const char *image, const retina_rows *r) {
+    retina_row_of(width, p, image, r, 0);
 }
 
 typedef struct {

@@ -10,7 +10,7 @@
  * stores settle. */
 #define SETTLE 1
 
-/* `rows` rows of `stride` floats; row y is kept until row y + rows comes. */
+/* `rows` rows of `stride` floats, a power of two; row y is kept until row y + rows comes. */
 typedef struct {
     float *first;
     unsigned rows;
@@ -19,26 +19,44 @@ typedef struct {
 
 enum { E_ON, E_OFF, E_ON_BEFORE, E_OFF_BEFORE, E_ROWS };
 
+/* What the LGMDs read: ON, OFF, and the same one step ago, edges repeated outwards. */
+typedef ring excitation[E_ROWS];
+
 typedef struct {
-    ring change;
-    ring inner, outer;         /* horizontally blurred */
-    ring adapted[2];           /* zero margins */
-    ring before[2];            /* the same one step ago, where the state does not keep it apart */
-    ring excitation[SOURCES][E_ROWS];
+    ring change; /* as many rows as the DoG looks at, not a power of two; see window_of */
+    ring inner, outer; /* blurred down the columns */
+    ring adapted[2]; /* zero margins for the EMDs, then edges repeated outwards for the LGMDs */
+    ring before[2];  /* the same one step ago, where someone needs it apart from the state */
+    ring retina[E_ROWS]; /* excitation by the change itself */
     ring own[MAX_SETS], across[MAX_SETS], part[MAX_SETS];
     ring summation[2];
     ring column[2]; /* three rows of the summation, added up */
     ring tap_own[MAX_SETS], tap_across[MAX_SETS];
     float *list[2]; /* vectors of grouped cells that may reach the threshold */
     size_t listed[2];
-    float strongest[2];   /* largest 3 x 3 sum so far */
+    float strongest[2]; /* largest 3 x 3 sum so far */
     vd hs;
     vd total[2];
 } scratch;
 
-static inline float *row_of(const ring *r, int y) { return r->first + (size_t)((unsigned)y % r->rows) * (size_t)r->stride; }
+static inline float *row_of(const ring *r, int y) {
+    return r->first + (size_t)((unsigned)y & (r->rows - 1u)) * (size_t)r->stride;
+}
 
 static inline int clamp(int y, int height) { return y < 0 ? 0 : y >= height ? height - 1 : y; }
+
+/* The rows y - R to y + R of a ring of 2 R + 1, those outside the picture being its first or last one. */
+static inline void window_of(const ring *r, int y, int R, int height, float **rows) {
+    int from = clamp(y - R, height);
+    float *row = r->first + (size_t)((unsigned)from % r->rows) * (size_t)r->stride;
+    const float *end = r->first + (size_t)r->rows * (size_t)r->stride;
+    for (int i = -R; i <= R; i++) {
+        *rows++ = row;
+        if (y + i < 0 || y + i >= height - 1) continue;
+        row += r->stride;
+        if (row == end) row = r->first;
+    }
+}
 
 /* The workspace as it is dealt out; without a base it is only measured. */
 typedef struct {
@@ -64,17 +82,16 @@ static inline ring take_short(memory *m, const layout *l, int rows) { return tak
 
 /* The rows of one frame at work. */
 static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
-    s->change = take_long(m, l, 1 + SETTLE);
-    s->inner = take_short(m, l, l->inner_radius + l->outer_radius + 1); /* the outer field waits longer */
-    s->outer = take_short(m, l, 2 * l->outer_radius + 1);
+    int lgmds_read_lamina = l->reads[0] == ADAPTED || l->reads[1] == ADAPTED;
+    int lgmds_read_change = l->reads[0] == CHANGE || l->reads[1] == CHANGE;
+    s->change = take_short(m, l, 2 * l->outer_radius + 1);
+    s->inner = take_long(m, l, l->outer_radius ? 2 : 0);
+    s->outer = take_long(m, l, l->outer_radius ? 2 : 0);
     for (int c = 0; c < 2; c++) {
-        s->adapted[c] = take_long(m, l, 1 + SETTLE);
-        s->before[c] = take_long(m, l, l->planes.adapted < 0 ? 1 + SETTLE : 0);
+        s->adapted[c] = take_long(m, l, 4);
+        s->before[c] = take_long(m, l, lgmds_read_lamina || l->planes.adapted < 0 ? 4 : 0);
     }
-    for (int source = 0; source < SOURCES; source++) {
-        int used = l->reads[0] == source || l->reads[1] == source;
-        for (int k = 0; k < E_ROWS; k++) s->excitation[source][k] = take_long(m, l, used ? 1 + SETTLE : 0);
-    }
+    for (int k = 0; k < E_ROWS; k++) s->retina[k] = take_long(m, l, lgmds_read_change ? 2 : 0);
     for (int k = 0; k < MAX_SETS; k++) {
         s->own[k] = take_short(m, l, l->ring);
         s->across[k] = take_short(m, l, l->ring);
@@ -82,7 +99,7 @@ static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     }
     for (int j = 0; j < 2; j++) {
         s->summation[j] = take_short(m, l, l->ring);
-        s->column[j] = take_long(m, l, 1 + SETTLE);
+        s->column[j] = take_long(m, l, 2);
         s->list[j] = take(m, (size_t)l->height * (size_t)l->stride + ROW_FLOATS);
     }
 }

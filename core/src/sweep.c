@@ -14,11 +14,15 @@
 #include "retina.h"
 #include "scratch.h"
 
+/* What stays the same for all rows of all frames of a sweep. */
 typedef struct {
     const layout *l;
-    const float *inner_kernel, *outer_kernel;
+    int n; /* width in whole vectors */
+    int lgmds_read_change, lgmds_read_lamina, fdsr;
+    int reach[SOURCES]; /* farthest neighbour among the LGMDs that read it */
+    const float *inner, *outer; /* weights of the DoG */
     float *planes;
-} picture_state;
+} constants;
 
 static void replicate_margins(float *row, int width, int margin) {
     vf first = vf_all(row[0]), last = vf_all(row[width - 1]);
@@ -32,214 +36,136 @@ static void zero_right(float *row, int width, int margin) {
     for (int x = 0; x < margin + LANES; x += LANES) vf_store(row + width + x, vf_all(0.0f));
 }
 
-static void copy_row(float *const *taps, int tap, const layout *l, int y, const float *row) {
-    if (taps && taps[tap]) memcpy(taps[tap] + (size_t)y * (size_t)l->width, row, (size_t)l->width * sizeof(float));
+static void zero_left(float *row, int margin) {
+    for (int x = 0; x < margin; x += LANES) vf_store(row - x - LANES, vf_all(0.0f));
 }
 
-static int uses(const layout *l, int source) { return l->reads[0] == source || l->reads[1] == source; }
-
-static int reach_of(const layout *l, int source) {
-    int reach = 0;
-    for (int j = 0; j < 2; j++)
-        if (l->reads[j] == source && l->spacing[j] > reach) reach = l->spacing[j];
-    return reach;
+static float *tap_row(const step_plan *p, int tap, const layout *l, int y) {
+    return p->taps && p->taps[tap] ? p->taps[tap] + (size_t)y * (size_t)l->width : NULL;
 }
 
-INLINE void retina_vector(int x, vf now, const step_plan *p, float *luma, float *change, float *on, float *off,
-                          float *const *excitation, int lgmds_read_change) {
-    vf c = frame_difference(now, vf_load(luma + x), p);
-    vf_store(luma + x, now);
-    vf_store(change + x, c);
-    if (lgmds_read_change) {
-        on_off signal = halves(c);
-        vf on_before = vf_load(on + x), off_before = vf_load(off + x);
-        vf on_now = signal.on + vf_all(p->residual) * on_before, off_now = signal.off + vf_all(p->residual) * off_before;
-        vf_store(on + x, on_now);
-        vf_store(off + x, off_now);
-        vf_store(excitation[E_ON] + x, on_now);
-        vf_store(excitation[E_OFF] + x, off_now);
-        vf_store(excitation[E_ON_BEFORE] + x, on_before);
-        vf_store(excitation[E_OFF_BEFORE] + x, off_before);
-    }
+static void copy_to_tap(const step_plan *p, int tap, const layout *l, int y, const float *row) {
+    float *map = tap_row(p, tap, l, y);
+    if (map) memcpy(map, row, (size_t)l->width * sizeof(float));
 }
 
-INLINE void retina_row_as(const layout *l, const step_plan *p, const char *image, int type, float *luma, float *change,
-                          float *on, float *off, float *const *excitation, int lgmds_read_change) {
-    int whole = l->width / LANES * LANES;
-    for (int x = 0; x < whole; x += LANES)
-        retina_vector(x, pixels_at(image, type, x), p, luma, change, on, off, excitation, lgmds_read_change);
-    if (whole < l->width)
-        retina_vector(whole, last_pixels(image, type, whole, l->width), p, luma, change, on, off, excitation,
-                      lgmds_read_change);
-}
-
-static void retina_row(const picture_state *s, scratch *k, const step_plan *p, int y) {
-    const layout *l = s->l;
+static void retina_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const layout *l = c->l;
     const char *image = picture_row(&p->image, y);
-    int change_read = uses(l, CHANGE);
-    float *luma = state_row(l, s->planes, l->planes.luma, y), *change = row_of(&k->change, y), *excitation[E_ROWS];
-    float *on = change_read ? state_row(l, s->planes, l->planes.change, y) : NULL;
-    float *off = change_read ? on + l->stride : NULL;
-    for (int i = 0; i < E_ROWS; i++) excitation[i] = change_read ? row_of(&k->excitation[CHANGE][i], y) : NULL;
-    if (p->image.type == LOBULA_UINT8) {
-        if (change_read)
-            retina_row_as(l, p, image, LOBULA_UINT8, luma, change, on, off, excitation, 1);
-        else
-            retina_row_as(l, p, image, LOBULA_UINT8, luma, change, on, off, excitation, 0);
+    float *luma = state_row(l, c->planes, l->planes.luma, y);
+    float *change = k->change.first + (size_t)((unsigned)y % k->change.rows) * (size_t)k->change.stride;
+    if (c->lgmds_read_change) {
+        float *on = state_row(l, c->planes, l->planes.change, y);
+        retina_rows r = {luma, change, {on, on + l->stride}, {NULL}};
+        for (int i = 0; i < E_ROWS; i++) r.excitation[i] = row_of(&k->retina[i], y);
+        retina_row_excites(l->width, p, image, &r);
+        for (int i = 0; i < E_ROWS; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
     } else {
-        retina_row_as(l, p, image, LOBULA_FLOAT32, luma, change, on, off, excitation, change_read);
+        retina_rows r = {luma, change, {NULL}, {NULL}};
+        retina_row_alone(l->width, p, image, &r);
     }
-    if (change_read)
-        for (int i = 0; i < E_ROWS; i++) replicate_margins(excitation[i], l->width, reach_of(l, CHANGE));
-    if (l->outer_radius) replicate_margins(change, l->width, l->outer_radius);
-    copy_row(p->taps, LOBULA_TAP_CHANGE, l, y, change);
+    copy_to_tap(p, LOBULA_TAP_CHANGE, l, y, change);
 }
 
-static void blur_row(const picture_state *s, scratch *k, int y) {
-    const layout *l = s->l;
-    float *change = row_of(&k->change, y), *e = row_of(&k->inner, y), *i = row_of(&k->outer, y);
-    int n = padded(l->width);
+static void blur_row(const constants *c, scratch *k, int y) {
+    const layout *l = c->l;
+    float *rows[2 * MAX_RADIUS + 1], *e = row_of(&k->inner, y), *i = row_of(&k->outer, y);
+    window_of(&k->change, y, l->outer_radius, l->height, rows);
     if (l->inner_radius == 2 && l->outer_radius == 4)
-        blur_along(change, n, s->inner_kernel, 2, s->outer_kernel, 4, e, i);
+        blur_down(rows, c->n, c->inner, 2, c->outer, 4, e, i);
     else
-        blur_along(change, n, s->inner_kernel, l->inner_radius, s->outer_kernel, l->outer_radius, e, i);
+        blur_down(rows, c->n, c->inner, l->inner_radius, c->outer, l->outer_radius, e, i);
+    replicate_margins(e, l->width, l->inner_radius);
+    replicate_margins(i, l->width, l->outer_radius);
 }
 
-INLINE void lamina_row_as(const picture_state *s, const step_plan *p, float *const *inner, int r, float *const *outer,
-                          int R, float *on, float *off, float *const *adapted, float *const *before, int fdsr) {
-    int n = padded(s->l->width);
-    for (int x = 0; x < n; x += LANES) {
-        vf e = blur_down(inner, x, s->inner_kernel, r), i = blur_down(outer, x, s->outer_kernel, R);
-        adapt_channels(x, edges(e, i, p->dead_zone), p, on, off, adapted[ON], adapted[OFF], before[ON], before[OFF],
-                       fdsr);
-    }
-}
-
-static void lamina_row_unfiltered(const picture_state *s, const step_plan *p, const float *change, float *on,
-                                  float *off, float *const *adapted, float *const *before, int fdsr) {
-    int n = padded(s->l->width);
-    for (int x = 0; x < n; x += LANES)
-        adapt_channels(x, halves(vf_load(change + x)), p, on, off, adapted[ON], adapted[OFF], before[ON], before[OFF],
-                       fdsr);
-}
-
-static void edges_tap(const picture_state *s, const step_plan *p, float *const *inner, float *const *outer,
-                      const float *change, int y) {
-    const layout *l = s->l;
-    if (!l->outer_radius) {
-        copy_row(p->taps, LOBULA_TAP_LAMINA, l, y, change);
-        return;
-    }
-    float *map = p->taps[LOBULA_TAP_LAMINA] + (size_t)y * (size_t)l->width;
-    int n = padded(l->width);
-    for (int x = 0; x < n; x += LANES) {
-        float row[LANES];
-        on_off edge = edges(blur_down(inner, x, s->inner_kernel, l->inner_radius),
-                            blur_down(outer, x, s->outer_kernel, l->outer_radius), p->dead_zone);
-        vf_store(row, edge.on - edge.off);
-        for (int i = 0; i < LANES && x + i < l->width; i++) map[x + i] = row[i];
-    }
-}
-
-static void lamina_row(const picture_state *s, scratch *k, const step_plan *p, int y) {
-    const layout *l = s->l;
-    float *inner[2 * 32 + 1], *outer[2 * 32 * 4 + 1];
-    float *on = state_row(l, s->planes, l->planes.on, y), *off = state_row(l, s->planes, l->planes.off, y);
-    float *adapted[2], *before[2];
-    int fdsr = l->planes.adapted >= 0, r = l->inner_radius, R = l->outer_radius;
-    for (int c = 0; c < 2; c++) {
-        adapted[c] = row_of(&k->adapted[c], y);
-        before[c] = fdsr ? NULL : row_of(&k->before[c], y);
-    }
-    if (R) {
-        for (int i = -r; i <= r; i++) inner[r + i] = row_of(&k->inner, clamp(y + i, l->height));
-        for (int i = -R; i <= R; i++) outer[R + i] = row_of(&k->outer, clamp(y + i, l->height));
-    }
-    if (!R)
-        lamina_row_unfiltered(s, p, row_of(&k->change, y), on, off, adapted, before, fdsr);
-    else if (r == 2 && R == 4 && fdsr)
-        lamina_row_as(s, p, inner, 2, outer, 4, on, off, adapted, before, 1);
+static void lamina_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const layout *l = c->l;
+    const float *e = row_of(&k->inner, y), *i = row_of(&k->outer, y), *change = k->change.first;
+    lamina_rows rows = {{state_row(l, c->planes, l->planes.on, y), state_row(l, c->planes, l->planes.off, y)},
+                        {row_of(&k->adapted[ON], y), row_of(&k->adapted[OFF], y)},
+                        {NULL, NULL}};
+    if (!c->fdsr)
+        for (int ch = 0; ch < 2; ch++) rows.before[ch] = row_of(&k->before[ch], y);
+    if (!l->outer_radius)
+        lamina_row_unfiltered(c->n, change, p, &rows, c->fdsr);
+    else if (l->inner_radius == 2 && l->outer_radius == 4 && c->fdsr)
+        lamina_row_as(c->n, e, i, c->inner, 2, c->outer, 4, p, &rows, 1);
     else
-        lamina_row_as(s, p, inner, r, outer, R, on, off, adapted, before, fdsr);
-    for (int c = 0; c < 2; c++) {
-        zero_right(adapted[c], l->width, l->margin);
-        if (!fdsr) zero_right(before[c], l->width, 0);
-        copy_row(p->taps, LOBULA_TAP_ADAPTED_ON + c, l, y, adapted[c]);
+        lamina_row_as(c->n, e, i, c->inner, l->inner_radius, c->outer, l->outer_radius, p, &rows, c->fdsr);
+    for (int ch = 0; ch < 2; ch++) {
+        zero_right(rows.adapted[ch], l->width, l->margin);
+        if (c->lgmds_read_lamina) zero_left(rows.adapted[ch], l->margin);
+        if (!c->fdsr) zero_right(rows.before[ch], l->width, 0);
+        copy_to_tap(p, LOBULA_TAP_ADAPTED_ON + ch, l, y, rows.adapted[ch]);
     }
-    if (p->taps && p->taps[LOBULA_TAP_LAMINA]) edges_tap(s, p, inner, outer, row_of(&k->change, y), y);
-}
-
-/* What the LGMDs read where they read the lamina: both channels now and one step ago, edges repeated outwards. */
-static void excite_row(const layout *l, scratch *k, const float *on, const float *off, const float *kept,
-                       const float *on_before, const float *off_before, int y) {
-    float *rows[E_ROWS];
-    int n = padded(l->width);
-    for (int i = 0; i < E_ROWS; i++) rows[i] = row_of(&k->excitation[ADAPTED][i], y);
-    for (int x = 0; x < n; x += LANES) {
-        on_off before = kept ? halves(vf_load(kept + x)) : (on_off){vf_load(on_before + x), vf_load(off_before + x)};
-        vf_store(rows[E_ON] + x, vf_load(on + x));
-        vf_store(rows[E_OFF] + x, vf_load(off + x));
-        vf_store(rows[E_ON_BEFORE] + x, before.on);
-        vf_store(rows[E_OFF_BEFORE] + x, before.off);
-    }
-    for (int i = 0; i < E_ROWS; i++) replicate_margins(rows[i], l->width, reach_of(l, ADAPTED));
-}
-
-static void motion_tap(const layout *l, const step_plan *p, const float *on, const float *off, const float *kept,
-                       const float *on_before, const float *off_before, int y) {
-    float *map = p->taps[LOBULA_TAP_MOTION] + (size_t)y * (size_t)l->width;
-    memset(map, 0, (size_t)l->width * sizeof(float));
-    emd_map(l->width, on, kept ? kept : on_before, 1.0f, p, map);
-    emd_map(l->width, off, kept ? kept : off_before, kept ? -1.0f : 1.0f, p, map);
-}
-
-static void motion_row(const picture_state *s, scratch *k, const step_plan *p, int y) {
-    const layout *l = s->l;
-    int fdsr = l->planes.adapted >= 0;
-    float *on = row_of(&k->adapted[ON], y), *off = row_of(&k->adapted[OFF], y);
-    float *on_before = fdsr ? NULL : row_of(&k->before[ON], y), *off_before = fdsr ? NULL : row_of(&k->before[OFF], y);
-    float *kept = fdsr ? state_row(l, s->planes, l->planes.adapted, y) : NULL;
-    if (uses(l, ADAPTED)) excite_row(l, k, on, off, kept, on_before, off_before, y);
-    if (p->taps && p->taps[LOBULA_TAP_MOTION]) motion_tap(l, p, on, off, kept, on_before, off_before, y);
-    if (fdsr)
-        emd_row(padded(l->width), on, off, kept, p, &k->hs);
+    float *map = tap_row(p, LOBULA_TAP_LAMINA, l, y);
+    if (map && l->outer_radius)
+        edges_map(l->width, e, i, c->inner, l->inner_radius, c->outer, l->outer_radius, p->dead_zone, map);
     else
-        emd_row_apart(padded(l->width), on, off, on_before, off_before, p, &k->hs);
+        copy_to_tap(p, LOBULA_TAP_LAMINA, l, y, change);
+}
+
+static void motion_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const layout *l = c->l;
+    float *on = row_of(&k->adapted[ON], y), *off = row_of(&k->adapted[OFF], y), *before[2] = {NULL, NULL};
+    float *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL;
+    float *map = tap_row(p, LOBULA_TAP_MOTION, l, y);
+    if (k->before[ON].first)
+        for (int ch = 0; ch < 2; ch++) before[ch] = row_of(&k->before[ch], y);
+    if (map) {
+        memset(map, 0, (size_t)l->width * sizeof(float));
+        emd_map(l->width, on, kept ? kept : before[ON], 1.0f, p, map);
+        emd_map(l->width, off, kept ? kept : before[OFF], kept ? -1.0f : 1.0f, p, map);
+    }
+    if (c->fdsr)
+        k->hs = emd_row(c->n, on, off, kept, before, p, c->lgmds_read_lamina, k->hs);
+    else
+        k->hs = emd_row_apart(c->n, on, off, before[ON], before[OFF], p, k->hs);
+    if (c->lgmds_read_lamina) {
+        float *rows[E_ROWS] = {on, off, before[ON], before[OFF]};
+        for (int i = 0; i < E_ROWS; i++) replicate_margins(rows[i], l->width, c->reach[ADAPTED]);
+    }
+}
+
+static const ring *excitation_of(const scratch *k, int source, int channel, int before) {
+    if (source == CHANGE) return &k->retina[before ? E_ON_BEFORE + channel : channel];
+    return before ? &k->before[channel] : &k->adapted[channel];
 }
 
 /* One set: weigh row y, compete in row y - spacing. Past the lower border there is nothing left to weigh. */
-static void set_row(const layout *l, scratch *k, const inhibition_set *q, const ring *own, const ring *across,
-                    const ring *part, int y) {
-    int s = q->spacing, n = padded(l->width), mid = y - s, competes = mid >= 0;
-    float *above = competes ? row_of(across, clamp(mid - s, l->height)) : NULL;
-    float *middle = competes ? row_of(own, mid) : NULL, *out = competes ? row_of(part, mid) : NULL;
-    if (y < l->height) {
-        const float *now = row_of(&k->excitation[q->source][q->channel], y);
-        const float *before = row_of(&k->excitation[q->source][E_ON_BEFORE + q->channel], y);
+static void set_row(const constants *c, scratch *k, const inhibition_set *q, int set, int y) {
+    int s = q->spacing, mid = y - s, competes = mid >= 0, height = c->l->height;
+    const ring *own = &k->own[set], *across = &k->across[set];
+    float *above = competes ? row_of(across, clamp(mid - s, height)) : NULL;
+    float *middle = competes ? row_of(own, mid) : NULL, *out = competes ? row_of(&k->part[set], mid) : NULL;
+    if (y < height) {
+        const float *now = row_of(excitation_of(k, q->source, q->channel, 0), y);
+        const float *before = row_of(excitation_of(k, q->source, q->channel, 1), y);
         float *mine = row_of(own, y), *hands_on = row_of(across, y);
         if (competes && mid - s >= 0)
-            inhibition_row(n, q, s, now, before, mine, hands_on, middle, above, out, WEIGH_AND_COMPETE);
+            inhibition_row(c->n, q, s, now, before, mine, hands_on, middle, above, out, WEIGH_AND_COMPETE);
         else
-            inhibition_row(n, q, s, now, before, mine, hands_on, NULL, NULL, NULL, WEIGH_ONLY);
-        if (competes && mid - s < 0) compete_row(n, middle, above, hands_on, out);
+            inhibition_row(c->n, q, s, now, before, mine, hands_on, NULL, NULL, NULL, WEIGH_ONLY);
+        if (competes && mid - s < 0) compete_row(c->n, middle, above, hands_on, out);
     } else if (competes) {
-        compete_row(n, middle, above, row_of(across, l->height - 1), out);
+        compete_row(c->n, middle, above, row_of(across, height - 1), out);
     }
 }
 
 /* Inhibition as such, for a tap: a set without E and without a floor, so what competes is -I. */
-static void tap_row(const layout *l, scratch *k, const step_plan *p, int i, int y) {
+static void inhibition_map(const constants *c, scratch *k, const step_plan *p, int i, int y) {
     const inhibition_set *q = &p->tap_set[i];
-    int s = q->spacing, mid = y - s;
-    if (y < l->height)
-        inhibition_row(padded(l->width), q, s, row_of(&k->excitation[q->source][q->channel], y),
-                       row_of(&k->excitation[q->source][E_ON_BEFORE + q->channel], y), row_of(&k->tap_own[i], y),
+    int s = q->spacing, mid = y - s, height = c->l->height;
+    if (y < height)
+        inhibition_row(c->n, q, s, row_of(excitation_of(k, q->source, q->channel, 0), y),
+                       row_of(excitation_of(k, q->source, q->channel, 1), y), row_of(&k->tap_own[i], y),
                        row_of(&k->tap_across[i], y), NULL, NULL, NULL, WEIGH_ONLY);
     if (mid < 0) return;
-    const float *own = row_of(&k->tap_own[i], mid), *above = row_of(&k->tap_across[i], clamp(mid - s, l->height));
-    const float *below = row_of(&k->tap_across[i], clamp(y, l->height));
-    float *out = p->tap_set_out[i] + (size_t)mid * (size_t)l->width;
-    for (int x = 0; x < l->width; x++) out[x] = above[x] + below[x] - own[x];
+    const float *own = row_of(&k->tap_own[i], mid), *above = row_of(&k->tap_across[i], clamp(mid - s, height));
+    const float *below = row_of(&k->tap_across[i], clamp(y, height));
+    float *out = p->tap_set_out[i] + (size_t)mid * (size_t)c->l->width;
+    for (int x = 0; x < c->l->width; x++) out[x] = above[x] + below[x] - own[x];
 }
 
 static const ring *summation_of(const scratch *k, const lgmd_plan *q, int j) {
@@ -248,26 +174,28 @@ static const ring *summation_of(const scratch *k, const lgmd_plan *q, int j) {
 }
 
 /* Row y of the summation, and the column sums it completes (row y - spacing). */
-static void summation_row(const layout *l, scratch *k, const step_plan *p, int j, int y) {
+static void summation_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    const layout *l = c->l;
     const lgmd_plan *q = &p->lgmd[j];
     const ring *sum = summation_of(k, q, j);
-    int s = l->spacing[j], n = padded(l->width), mid = y - s, columns = q->grouping && mid >= 0;
+    int s = l->spacing[j], n = c->n, mid = y - s, columns = q->grouping && mid >= 0;
     float *column = columns ? row_of(&k->column[j], mid) : NULL;
     float *above = columns ? row_of(sum, clamp(mid - s, l->height)) : NULL;
     float *middle = columns ? row_of(sum, mid) : NULL;
     if (y < l->height) {
         float *now = row_of(sum, y);
-        const float *on = q->kind == SUM_ONE ? NULL : row_of(&k->part[q->set[ON]], y);
-        const float *off = q->kind == SUM_ONE ? NULL : row_of(&k->part[q->set[OFF]], y);
-        int fused = columns && mid - s >= 0;
-        if (q->kind == SUM_PRODUCT)
-            sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 1);
-        else if (q->kind == SUM_BOTH)
-            sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 0);
-        if (columns && !(fused && q->kind != SUM_ONE)) column_row(n, above, middle, now, column);
-        if (!q->grouping) total_row(l->width, now, &k->total[j]);
-        copy_row(p->taps, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, l, y, now);
-        if (!q->grouping) copy_row(p->taps, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y, now);
+        int fused = columns && mid - s >= 0 && q->kind != SUM_ONE;
+        if (q->kind != SUM_ONE) {
+            const float *on = row_of(&k->part[q->set[ON]], y), *off = row_of(&k->part[q->set[OFF]], y);
+            if (q->kind == SUM_PRODUCT)
+                sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 1);
+            else
+                sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 0);
+        }
+        if (columns && !fused) column_row(n, above, middle, now, column);
+        if (!q->grouping) k->total[j] = total_row(l->width, now, k->total[j]);
+        copy_to_tap(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, l, y, now);
+        if (!q->grouping) copy_to_tap(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y, now);
     } else if (columns) {
         column_row(n, above, middle, row_of(sum, l->height - 1), column);
     }
@@ -278,59 +206,58 @@ static float threshold(const lgmd_plan *q, float strongest) {
     return (float)(9.0 * q->threshold_grey * (q->floor_grey + (double)strongest / (9.0 * q->divisor)));
 }
 
-static void grouping_row(const layout *l, scratch *k, const step_plan *p, int j, int y) {
+static void grouping_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    const layout *l = c->l;
     const lgmd_plan *q = &p->lgmd[j];
-    vf strongest = vf_all(k->strongest[j]);
     const float *sum = row_of(summation_of(k, q, j), y), *column = row_of(&k->column[j], y);
+    int s = l->spacing[j];
     /* a little below, so that rounding on the way to the final threshold loses nothing */
     float limit = 0.999999f * threshold(q, k->strongest[j]);
-    float *from = k->list[j] + k->listed[j];
-    float *to = group_row(l->width, l->spacing[j], sum, column, limit, &strongest, from);
-    k->listed[j] += (size_t)(to - from);
-    k->strongest[j] = vf_highest(strongest);
-    if (p->taps && p->taps[LOBULA_TAP_LGMD1_GROUPED + 4 * j]) {
-        float *map = p->taps[LOBULA_TAP_LGMD1_GROUPED + 4 * j] + (size_t)y * (size_t)l->width;
-        int s = l->spacing[j];
-        for (int x = 0; x < l->width; x++) map[x] = sum[x] * (column[x - s] + column[x] + column[x + s]);
-    }
+    grouped g = {vf_all(k->strongest[j]), k->list[j] + k->listed[j]};
+    g = group_row(l->width, s, sum, column, limit, g);
+    k->listed[j] = (size_t)(g.list - k->list[j]);
+    k->strongest[j] = vf_highest(g.strongest);
+    float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y);
+    for (int x = 0; map && x < l->width; x++) map[x] = sum[x] * (column[x - s] + column[x] + column[x + s]);
 }
 
-static void lgmd_row(const layout *l, scratch *k, const step_plan *p, int j, int y) {
-    int s = l->spacing[j], summed = y - s, grouped = summed - s - SETTLE;
+static void lgmd_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    int s = c->l->spacing[j], height = c->l->height, summed = y - s, grouped_row = summed - s - SETTLE;
     if (p->lgmd[j].kind == SUM_NONE) return;
-    if (p->lgmd[j].grouping && grouped >= 0 && grouped < l->height) grouping_row(l, k, p, j, grouped);
-    if (summed >= 0 && summed < l->height + s) summation_row(l, k, p, j, summed);
+    if (p->lgmd[j].grouping && grouped_row >= 0 && grouped_row < height) grouping_row(c, k, p, j, grouped_row);
+    if (summed >= 0 && summed < height + s) summation_row(c, k, p, j, summed);
 }
 
-static void source_row(const layout *l, scratch *k, const step_plan *p, int source, int y) {
+/* Row y of what the LGMDs read is there. */
+static void source_row(const constants *c, scratch *k, const step_plan *p, int source, int y) {
     if (y < 0) return;
     for (int i = 0; i < p->sets; i++)
-        if (p->set[i].source == source && y < l->height + p->set[i].spacing)
-            set_row(l, k, &p->set[i], &k->own[i], &k->across[i], &k->part[i], y);
+        if (p->set[i].source == source && y < c->l->height + p->set[i].spacing) set_row(c, k, &p->set[i], i, y);
     for (int i = 0; i < p->tap_sets; i++)
-        if (p->tap_set[i].source == source && y < l->height + p->tap_set[i].spacing) tap_row(l, k, p, i, y);
+        if (p->tap_set[i].source == source && y < c->l->height + p->tap_set[i].spacing) inhibition_map(c, k, p, i, y);
     for (int j = 0; j < 2; j++)
-        if (l->reads[j] == source) lgmd_row(l, k, p, j, y);
+        if (c->l->reads[j] == source) lgmd_row(c, k, p, j, y);
 }
 
-/* Row y enters; every later layer works on the row that has become possible. */
-static void push_row(const picture_state *s, scratch *k, const step_plan *p, int y) {
-    const layout *l = s->l;
-    int height = l->height, settled = y - SETTLE, laminated = settled - l->outer_radius, moved = laminated - SETTLE;
-    if (uses(l, ADAPTED)) source_row(l, k, p, ADAPTED, moved - SETTLE);
-    if (moved >= 0 && moved < height) motion_row(s, k, p, moved);
-    if (l->outer_radius && settled >= 0 && settled < height) blur_row(s, k, settled);
-    if (laminated >= 0 && laminated < height) lamina_row(s, k, p, laminated);
-    if (uses(l, CHANGE)) source_row(l, k, p, CHANGE, settled);
-    if (y < height) retina_row(s, k, p, y);
+/* Row y enters; every later layer works on the row that has become possible. What looks along a row comes one push
+ * after what wrote it, see SETTLE. */
+static void push_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const layout *l = c->l;
+    int height = l->height, blurred = y - l->outer_radius, laminated = blurred - (l->outer_radius ? SETTLE : 0);
+    int moved = laminated - SETTLE;
+    if (c->lgmds_read_lamina) source_row(c, k, p, ADAPTED, moved - SETTLE);
+    if (c->lgmds_read_change) source_row(c, k, p, CHANGE, y - SETTLE);
+    if (moved >= 0 && moved < height) motion_row(c, k, p, moved);
+    if (l->outer_radius && laminated >= 0 && laminated < height) lamina_row(c, k, p, laminated);
+    if (y < height) retina_row(c, k, p, y);
+    if (l->outer_radius && blurred >= 0 && blurred < height) blur_row(c, k, blurred);
+    if (!l->outer_radius && y < height) lamina_row(c, k, p, y);
 }
 
-static void begin(const layout *l, scratch *k) {
+static void begin(const constants *c, scratch *k) {
     vd none = {0};
-    for (int c = 0; c < 2; c++)
-        for (unsigned i = 0; i < k->adapted[c].rows; i++)
-            for (int x = 0; x < l->margin; x += LANES)
-                vf_store(k->adapted[c].first + (size_t)i * (size_t)k->adapted[c].stride - x - LANES, vf_all(0.0f));
+    for (int ch = 0; ch < 2; ch++)
+        for (int y = 0; y < (int)k->adapted[ch].rows; y++) zero_left(row_of(&k->adapted[ch], y), c->l->margin);
     k->hs = none;
     for (int j = 0; j < 2; j++) {
         k->total[j] = none;
@@ -339,7 +266,8 @@ static void begin(const layout *l, scratch *k) {
     }
 }
 
-static void finish(const layout *l, scratch *k, step_plan *p) {
+static void finish(const constants *c, scratch *k, step_plan *p) {
+    size_t pixels = (size_t)c->l->width * (size_t)c->l->height;
     p->hs = vd_total(&k->hs);
     for (int j = 0; j < 2; j++) {
         const lgmd_plan *q = &p->lgmd[j];
@@ -347,30 +275,43 @@ static void finish(const layout *l, scratch *k, step_plan *p) {
         double omega = q->floor_grey + (double)k->strongest[j] / (9.0 * q->divisor);
         p->total[j] = q->grouping ? total_of_list(k->list[j], k->list[j] + k->listed[j], least) / (9.0 * omega)
                                   : vd_total(&k->total[j]);
-        float *map = p->taps ? p->taps[LOBULA_TAP_LGMD1_GROUPED + 4 * j] : NULL;
-        if (p->taps && q->kind == SUM_NONE)
-            for (int i = LOBULA_TAP_LGMD1_SUMMATION + 4 * j; i <= LOBULA_TAP_LGMD1_GROUPED + 4 * j; i++)
-                if (p->taps[i]) memset(p->taps[i], 0, (size_t)l->width * (size_t)l->height * sizeof(float));
-        if (map && q->grouping && q->kind != SUM_NONE)
-            for (size_t i = 0; i < (size_t)l->width * (size_t)l->height; i++)
-                map[i] = map[i] >= least ? map[i] / (float)(9.0 * omega) : 0.0f;
+        float *sum = tap_row(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, c->l, 0);
+        float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, 0);
+        if (q->kind == SUM_NONE) {
+            if (sum) memset(sum, 0, pixels * sizeof(float));
+            if (map) memset(map, 0, pixels * sizeof(float));
+        } else if (map && q->grouping) {
+            for (size_t i = 0; i < pixels; i++) map[i] = map[i] >= least ? map[i] / (float)(9.0 * omega) : 0.0f;
+        }
     }
+}
+
+static constants constants_of(const layout *l, const float *kernel, float *planes) {
+    constants c = {.l = l, .n = padded(l->width), .fdsr = l->planes.adapted >= 0, .inner = kernel,
+                   .outer = kernel + l->inner_radius + 1, .planes = planes};
+    for (int j = 0; j < 2; j++) {
+        int source = l->reads[j];
+        if (source == CHANGE) c.lgmds_read_change = 1;
+        if (source == ADAPTED) c.lgmds_read_lamina = 1;
+        if (l->spacing[j] > c.reach[source]) c.reach[source] = l->spacing[j];
+    }
+    return c;
 }
 
 static void sweep(const layout *l, const float *kernel, float *planes, char *workspace, step_plan *plans, int n) {
     scratch k[MAX_FRAMES];
-    picture_state s = {l, kernel, kernel + l->inner_radius + 1, planes};
+    constants c = constants_of(l, kernel, planes);
     memory m = {workspace, 0};
     int spacing = l->spacing[0] > l->spacing[1] ? l->spacing[0] : l->spacing[1];
     int lag = l->outer_radius + 2 * spacing + 4 * SETTLE;
     for (int t = 0; t < n; t++) {
         scratch_layout(l, &m, &k[t]);
-        begin(l, &k[t]);
+        begin(&c, &k[t]);
     }
     if (plans[0].tap_sets) scratch_taps(l, &m, &k[0]);
     for (int y = 0; y < l->height + lag; y++)
-        for (int t = 0; t < n; t++) push_row(&s, &k[t], &plans[t], y);
-    for (int t = 0; t < n; t++) finish(l, &k[t], &plans[t]);
+        for (int t = 0; t < n; t++) push_row(&c, &k[t], &plans[t], y);
+    for (int t = 0; t < n; t++) finish(&c, &k[t], &plans[t]);
 }
 
 static size_t scratch_bytes(const layout *l) {
@@ -388,7 +329,6 @@ static size_t tap_bytes(const layout *l) {
 }
 
 const kernels KERNELS = {
-    ISA_NAME,   isa_runs,   scratch_bytes, tap_bytes, summarise, coverage, light,
-    light_rest, lit_change, set_luma,      sweep,     in_range,
-    area_average,
+    ISA_NAME,   isa_runs,   scratch_bytes, tap_bytes, summarise, coverage,     light,
+    light_rest, lit_change, set_luma,      sweep,     in_range,  area_average,
 };

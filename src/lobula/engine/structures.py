@@ -137,7 +137,7 @@ class Scalars(Structure):
     """``lobula_scalars``."""
 
     _fields_ = [
-        *((n, c_double) for n in ("frame_s", "step_s", "started_s", "turned_s", "held_s")),
+        *((n, c_double) for n in ("frame_s", "tick_s", "step_s", "started_s", "turned_s", "held_s")),
         *((n, c_int32) for n in ("has_frame", "has_turned", "has_held", "still", "flashing")),
         ("lgmd1", LgmdScalars), ("lgmd2", LgmdScalars), ("rightward", c_double), ("leftward", c_double),
     ]  # fmt: skip
