@@ -30,7 +30,7 @@ def main() -> int:
 
     # Libraries read these once, when they are loaded: NumPy must not have been imported yet.
     os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
-    from figures.figure import HEADING
+    from report import markdown
 
     from lobula.bench.machine import machine
 
@@ -43,10 +43,7 @@ def main() -> int:
     about["load_after"] = machine()["load"]
     document = {"machine": about, "rounds": rounds, "quick": options.quick, "figures": [f.as_dict() for f in found]}
     options.out.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    print("\n".join(f"- {key}: {value}" for key, value in about.items()))
-    print("\n" + HEADING)
-    for figure in found:
-        print(figure.row())
+    print(markdown(document))
     return 1 if any(figure.reaches(figure.must) is False for figure in found) else 0
 
 

@@ -9,7 +9,10 @@ from typing import Any, Literal
 
 @dataclass(frozen=True)
 class Figure:
-    """``value`` in ``unit`` against ``must`` and ``aim``; both None where a number is only told beside the others."""
+    """``value`` in ``unit`` against ``must`` and ``aim``; both None where a number is only told beside the others.
+
+    ``size`` is the working size, where the details hold times at one.
+    """
 
     name: str
     value: float
@@ -18,6 +21,7 @@ class Figure:
     aim: float | None = None
     better: Literal["more", "less"] = "more"
     details: Mapping[str, Any] = field(default_factory=dict)
+    size: str = ""
 
     def reaches(self, limit: float | None) -> bool | None:
         """Whether the value is at least as good as ``limit``; None where there is none."""
@@ -28,18 +32,7 @@ class Figure:
     def as_dict(self) -> dict[str, Any]:
         """Everything, ready for JSON."""
         return {
-            "name": self.name, "value": round(self.value, 4), "unit": self.unit, "better": self.better,
-            "must": self.must, "aim": self.aim, "must_reached": self.reaches(self.must),
+            "name": self.name, "size": self.size, "value": round(self.value, 4), "unit": self.unit,
+            "better": self.better, "must": self.must, "aim": self.aim, "must_reached": self.reaches(self.must),
             "aim_reached": self.reaches(self.aim), "details": dict(self.details),
         }  # fmt: skip
-
-    def row(self) -> str:
-        """A row of the Markdown table."""
-        marks = {True: "yes", False: "**no**", None: ""}
-        limits = ("" if limit is None else f"{limit:g}" for limit in (self.must, self.aim))
-        must, aim = limits
-        return (f"| {self.name} | {self.value:.3g} {self.unit} | {must} | {marks[self.reaches(self.must)]} | {aim} | "
-                f"{marks[self.reaches(self.aim)]} |")  # fmt: skip
-
-
-HEADING = "| figure | measured | must | reached | aim | reached |\n|---|--:|--:|---|--:|---|"

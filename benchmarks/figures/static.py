@@ -8,10 +8,10 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from lobula.bench.network import network
 from lobula.bench.scenes import RATE_HZ
 from lobula.stimuli import looming
 
+from .contenders import published
 from .figure import Figure
 
 MOVING, STILL, WINDOW = 60, 240, 10
@@ -42,7 +42,7 @@ def figures(rounds: int, quick: bool) -> list[Figure]:
 
 def _windows(images: NDArray[Any]) -> list[float]:
     """Return the time of a step, us, for each ten pictures."""
-    net = network("core")
+    net = published()
     net.step(images[0], 0.0)
     times = []
     for first in range(0, len(images) - WINDOW + 1, WINDOW):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from functools import partial
+from typing import Any
 from unittest.mock import patch
 
 import cv2
@@ -18,8 +18,10 @@ from lobula.bench.scenes import Images, pure_noise, scenes
 from lobula.bench.timing import Pass, Timing, interleaved, ratio
 from lobula.engine import library
 from lobula.engine.core import Workspace
+from lobula.engine.network import Network
 from lobula.model.presets import preset
 
+from .contenders import paper, published, scaled
 from .figure import Figure
 
 FRAMES = 64
@@ -42,10 +44,9 @@ def figures(rounds: int, quick: bool) -> list[Figure]:
     best = roofline.better(*peaks)
     return [
         *(_against_numpy(size, t) for size, t in timings.items()),
-        *(_against(size, t, "opencv", "step against tuned OpenCV", *AGAINST_OPENCV.get(size, (None, None)))
-          for size, t in timings.items()),
+        *(_against_opencv(size, t) for size, t in timings.items()),
         *(_from_roofline(size, t, best) for size, t in timings.items()),
-        *(_against(size, t, "flow", "step against DIS ultrafast flow", 1.3, 2) for size, t in timings.items()),
+        *(_against_flow(size, t) for size, t in timings.items()),
         *(figure for size, t in timings.items() for figure in _beside(size, t)),
     ]  # fmt: skip
 
@@ -56,25 +57,26 @@ def _time(size: tuple[int, int], rounds: int) -> dict[str, Timing]:
     movies = list(named.values())
     shape, p = (height, width), preset("published")
 
-    def core(movies: list[Images] = movies, **how: bool) -> Pass:
-        return frame_by_frame(lambda: network("core", **how).step, movies)
+    def core(movies: list[Images] = movies, make: Callable[[], Network] = published) -> Pass:
+        return frame_by_frame(lambda: make().step, movies)
 
     def slow(make: Callable[[], Step]) -> Pass:
         return frame_by_frame(make, movies, SLOW_FRAMES[size])
 
     contenders = {
         "step": core(),
-        "blocks": in_blocks(partial(network, "core"), movies),
+        "blocks": in_blocks(published, movies),
         "numpy": slow(lambda: NumpyScipyNetwork(p, shape).step),
         "opencv": slow(lambda: OpencvNetwork(p, shape).step),
         "flow": frame_by_frame(lambda: DisFlow().step, movies, SLOW_FRAMES[size] * 4),
         "noise": core([pure_noise(width, height, FRAMES)]),
-        "scaled": core(scale_kernels=True),
+        "scaled": core(make=scaled),
+        "preset paper": core(make=paper),
     }
     if size == roofline.SIZES[0]:
         contenders |= {f"on {name}": core([images]) for name, images in named.items()}
         contenders |= {f"isa {name}": _on(name, core) for name in library.isas()[:-1]}
-        contenders["reference"] = slow(lambda: network("reference").step)
+        contenders["reference"] = slow(lambda: network("reference", "published").step)
     return interleaved(contenders, rounds)
 
 
@@ -90,19 +92,24 @@ def _name(size: tuple[int, int]) -> str:
     return f"{size[0]}x{size[1]}"
 
 
-def _us(timings: dict[str, Timing], *names: str) -> dict[str, dict[str, float]]:
-    return {f"{name}_us": timings[name].as_dict() for name in names}
+def _told(what: str, size: tuple[int, int], t: dict[str, Timing], slow: str, fast: str, **about: Any) -> Figure:
+    """Return how many times longer ``slow`` takes than ``fast`` at one size."""
+    details = {f"{name}_us": t[name].as_dict() for name in (slow, fast)}
+    return Figure(f"{what}, {_name(size)}", ratio(t[slow], t[fast]), "x", details=details, size=_name(size), **about)
 
 
 def _against_numpy(size: tuple[int, int], t: dict[str, Timing]) -> Figure:
     how, must, aim = AGAINST_NUMPY[size]
-    return Figure(f"{how} against NumPy+SciPy, {_name(size)}", ratio(t["numpy"], t[how]), "x", must, aim,
-                  details=_us(t, "numpy", "step", "blocks"))  # fmt: skip
+    return _told(f"{how} against NumPy+SciPy", size, t, "numpy", how, must=must, aim=aim)
 
 
-def _against(size: tuple[int, int], t: dict[str, Timing], other: str, name: str, must: float | None,
-             aim: float | None) -> Figure:  # fmt: skip
-    return Figure(f"{name}, {_name(size)}", ratio(t[other], t["step"]), "x", must, aim, details=_us(t, other, "step"))
+def _against_opencv(size: tuple[int, int], t: dict[str, Timing]) -> Figure:
+    must, aim = AGAINST_OPENCV.get(size, (None, None))
+    return _told("step against tuned OpenCV", size, t, "opencv", "step", must=must, aim=aim)
+
+
+def _against_flow(size: tuple[int, int], t: dict[str, Timing]) -> Figure:
+    return _told("step against DIS ultrafast flow", size, t, "flow", "step", must=1.3, aim=2.0)
 
 
 def _from_roofline(size: tuple[int, int], t: dict[str, Timing], peaks: roofline.Peaks) -> Figure:
@@ -118,22 +125,19 @@ def _from_roofline(size: tuple[int, int], t: dict[str, Timing], peaks: roofline.
         "step_best_us": t["step"].best_us, "step_limit_us": one_by_one.us, "step_limited_by": one_by_one.by,
         "operations_s": peaks.operations_s, "bytes_s": peaks.bytes_s[roofline.state_bytes(width, height)],
     }  # fmt: skip
-    return Figure(f"{how} from the roofline (best), {_name(size)}", t[how].best_us / limit.us, "x", must, aim, "less",
-                  details)  # fmt: skip
+    value = t[how].best_us / limit.us
+    return Figure(f"{how} from the roofline (best), {_name(size)}", value, "x", must, aim, "less", details, _name(size))
 
 
 def _beside(size: tuple[int, int], t: dict[str, Timing]) -> list[Figure]:
     told = [
-        Figure(f"pure noise, the worst case, against the movies, {_name(size)}", ratio(t["noise"], t["step"]), "x",
-               better="less", details=_us(t, "noise", "step")),
-        Figure(f"scaled kernels against fixed, {_name(size)}", ratio(t["scaled"], t["step"]), "x", better="less",
-               details=_us(t, "scaled", "step")),
-    ]  # fmt: skip
+        _told("blocks against step", size, t, "step", "blocks"),
+        _told("strong noise against the movies", size, t, "noise", "step", better="less"),
+        _told("scaled kernels against fixed", size, t, "scaled", "step", better="less"),
+    ]
     for name in t:
-        if name.startswith(("on ", "isa ")):
-            told.append(Figure(f"step {name} against the step, {_name(size)}", ratio(t[name], t["step"]), "x",
-                               better="less", details=_us(t, name, "step")))  # fmt: skip
+        if name.startswith(("on ", "isa ", "preset ")):
+            told.append(_told(f"step, {name}, against the step", size, t, name, "step", better="less"))
     if "reference" in t:
-        told.append(Figure(f"step against the NumPy engine, {_name(size)}", ratio(t["reference"], t["step"]), "x",
-                           details=_us(t, "reference", "step")))  # fmt: skip
+        told.append(_told("step against the NumPy engine", size, t, "reference", "step"))
     return told

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import time
 
-from lobula.bench.network import frame_by_frame, network, streams_in_blocks
+from lobula.bench.network import frame_by_frame, streams_in_blocks
 from lobula.bench.scenes import scenes
 from lobula.bench.timing import interleaved, ratio
 
+from .contenders import published
 from .figure import Figure
 
 STREAMS, THREADS, FRAMES = 64, 2, 64
@@ -17,9 +18,9 @@ def figures(rounds: int, quick: bool) -> list[Figure]:
     """Time both by the wall clock."""
     movies = list(scenes(99, 72, FRAMES).values())
     contenders = {
-        "one": frame_by_frame(lambda: network("core").step, movies[:1]),
-        "streams": streams_in_blocks(lambda: network("core"), movies, STREAMS, THREADS),
-        "one_thread": streams_in_blocks(lambda: network("core"), movies, STREAMS, 1),
+        "one": frame_by_frame(lambda: published().step, movies[:1]),
+        "streams": streams_in_blocks(published, movies, STREAMS, THREADS),
+        "one_thread": streams_in_blocks(published, movies, STREAMS, 1),
     }
     t = interleaved(contenders, rounds, time.perf_counter_ns)
     details = {f"{name}_us": timing.as_dict() for name, timing in t.items()}

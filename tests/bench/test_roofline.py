@@ -1,4 +1,5 @@
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 import roofline
@@ -52,3 +53,12 @@ def test_better_takes_the_best_of_both():
     a = roofline.Peaks("x86-64", 16, {"fma": 1.0, "add": 4.0}, {8: 3.0})
     b = roofline.Peaks("x86-64", 16, {"fma": 2.0, "add": 3.0}, {8: 1.0})
     assert roofline.better(a, b) == roofline.Peaks("x86-64", 16, {"fma": 2.0, "add": 4.0}, {8: 3.0})
+
+
+def test_the_page_tells_the_same_counts():
+    page = Path(__file__).parents[2].joinpath("docs/performance.md").read_text(encoding="utf-8")
+    work = roofline.operations(preset("published"))
+    for w in work:
+        assert f"| {w.part} | {w.operations} | {w.count} |" in page
+    assert f"| all | {sum(w.operations for w in work)} |" in page
+    assert f"**{roofline.bytes_per_pixel():g} bytes a pixel**" in page

@@ -16,9 +16,9 @@ Step = Callable[[Any, float], Any]
 """Takes in one picture and its stamp."""
 
 
-def network(engine: str = "auto", *, scale_kernels: bool = False) -> Network:
-    """Return a network with the preset that every figure is measured with."""
-    return Network(preset("published"), engine=engine, scale_kernels=scale_kernels)
+def network(engine: str = "auto", name: str = "default", *, scale_kernels: bool = False) -> Network:
+    """Return a fresh network with the settings of preset ``name``."""
+    return Network(preset(name), engine=engine, scale_kernels=scale_kernels)
 
 
 def frame_by_frame(make_step: Callable[[], Step], movies: Sequence[Images], count: int | None = None) -> Pass:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..engine.network import Network
 from ..frames import open as open_frames
-from .network import network
 from .scenes import RATE_HZ, Images, scenes
 from .timing import Pass
 
@@ -56,11 +56,11 @@ def decode_only(path: Path) -> Pass:
     return work
 
 
-def to_decisions(path: Path, engine: str = "auto") -> Pass:
+def to_decisions(path: Path, make: Callable[[], Network]) -> Pass:
     """Return a pass from the file to a decision on every picture, at the default working size."""
 
     def work() -> int:
-        net, frames = network(engine), 0
+        net, frames = make(), 0
         with open_frames(path) as pictures:
             for picture in pictures:
                 net.step(picture)
