@@ -128,9 +128,9 @@ class CoreNetwork:
             self._core.lobula_get_plane(self._state.address, number, state[name].ctypes.data)
         now = Scalars()
         self._core.lobula_get_scalars(self._state.address, now)
-        known = {"tick_s": True, "step_s": True, "started_s": True, "frame_s": now.has_frame, "turned_s": now.has_turned,
+        known = {"frame_s": now.has_frame, "turned_s": now.has_turned,
                  "held_s": now.has_held}  # fmt: skip
-        state |= {name: getattr(now, name) if known[name] else math.nan for name in TIMES}
+        state |= {name: getattr(now, name) if known.get(name, True) else math.nan for name in TIMES}
         numbers = [bool(now.still), bool(now.flashing)]
         for lgmd in (now.lgmd1, now.lgmd2):
             numbers += [lgmd.raw, lgmd.potential, lgmd.change_before]

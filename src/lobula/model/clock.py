@@ -53,19 +53,20 @@ class Clock:
     def reset(self) -> None:
         """Forget every frame."""
         self.frame_s: float | None = None
-        self.step_s = 0.0
+        self.tick_s = self.step_s = 0.0
         self.still = False
 
     def beat(self, time_s: float) -> Beat:
         """Say what the frame stamped ``time_s`` is. A tick is complete at the frame nearest to its end."""
         before, self.frame_s = self.frame_s, time_s
         if before is None or (time_s - before) * 1000.0 > self.p.max_gap_ms:
-            self.step_s, self.still = time_s, False
+            self.tick_s, self.step_s, self.still = time_s, time_s, False
             return Beat.START
-        interval_ms, elapsed_ms = (time_s - before) * 1000.0, (time_s - self.step_s) * 1000.0
+        interval_ms, elapsed_ms = (time_s - before) * 1000.0, (time_s - self.tick_s) * 1000.0
         # The next frame would come closer to the end of the tick than this one: wait for it.
         if elapsed_ms + 0.5 * interval_ms < self.p.period_ms:
             return Beat.WAIT
+        self.tick_s = time_s
         return Beat.TICK
 
     def advances(self, time_s: float, mean_abs: float, max_abs: float) -> float | None:

@@ -23,7 +23,7 @@ CALIBRATED = "calibrated on the synthetic battery at 30 Hz (docs/calibration.md)
 LGMD_ON_LAMINA: Settings = {
     "reads": "lamina",
     "grouping": {"threshold_grey": 0.1, "floor_grey": 1e-4},
-    "sigmoid_grey": 0.004,
+    "sigmoid_grey": 0.0048,
 }
 ON_LAMINA: Settings = {"lgmd1": LGMD_ON_LAMINA, "lgmd2": LGMD_ON_LAMINA, "lptc": {"sigmoid_grey2": 0.002}}
 BASES: dict[str, dict[str, Settings]] = {

@@ -22,9 +22,9 @@ PLANES = ("luma", "on", "off", "adapted_on", "adapted_off", "change_on", "change
 """Maps (H, W) float32: the picture last taken in, the channels and the adapted channels of the lamina, and the channels
 of the change itself."""
 
-TIMES = ("frame_s", "step_s", "started_s", "turned_s", "held_s")
-"""Moments, s; NaN where there was none yet: the last frame, the last step, the start, the last turn, and when the rule
-of the decision last held."""
+TIMES = ("frame_s", "tick_s", "step_s", "started_s", "turned_s", "held_s")
+"""Moments, s; NaN where there was none yet: the last frame, tick and step, the start, the last turn, and
+when the rule of the decision last held."""
 
 NUMBERS = (
     "still", "flashing", "lgmd1_raw", "lgmd1_potential", "lgmd1_change_before", "lgmd2_raw",
@@ -56,7 +56,7 @@ def check_state(state: Mapping[str, Any], shape: tuple[int, int]) -> None:
 def state_dict(net: ReferenceNetwork) -> StateDict:
     """Return a copy of everything ``net`` remembers."""
     planes = (net.luma, *net.lamina.channels, *net.lamina.adapted, *net.change)
-    times = (net.clock.frame_s, net.clock.step_s, net.started_s, net.turned_s, net.decision.held_s)
+    times = (net.clock.frame_s, net.clock.tick_s, net.clock.step_s, net.started_s, net.turned_s, net.decision.held_s)
     numbers: list[float] = [net.clock.still, net.flashing]
     for lgmd in net.lgmds:
         numbers += [lgmd.raw, lgmd.potential, lgmd.change_before]
@@ -82,10 +82,10 @@ def load_state_dict(net: ReferenceNetwork, state: Mapping[str, Any]) -> None:
     )
     net.luma, net.change = luma, OnOff(change_on, change_off)
     net.lamina.channels, net.lamina.adapted = OnOff(on, off), OnOff(adapted_on, adapted_off)
-    net.clock.frame_s, step_s, started_s, net.turned_s, net.decision.held_s = (
+    net.clock.frame_s, tick_s, step_s, started_s, net.turned_s, net.decision.held_s = (
         None if math.isnan(state[name]) else float(state[name]) for name in TIMES
     )
-    net.clock.step_s, net.started_s = step_s or 0.0, started_s or 0.0
+    net.clock.tick_s, net.clock.step_s, net.started_s = tick_s or 0.0, step_s or 0.0, started_s or 0.0
     net.clock.still, net.flashing = bool(state["still"]), bool(state["flashing"])
     for name, lgmd in zip(("lgmd1", "lgmd2"), net.lgmds, strict=True):
         lgmd.raw, lgmd.potential = float(state[f"{name}_raw"]), float(state[f"{name}_potential"])
