@@ -65,5 +65,5 @@ def test_a_missing_column_is_named(tmp_path):
 
 
 def test_no_such_file(tmp_path):
-    with pytest.raises(ParameterError, match="nowhere.csv: no such file"):
+    with pytest.raises(ParameterError, match=r"nowhere\.csv: no such file"):
         read_labels(tmp_path / "nowhere.csv")

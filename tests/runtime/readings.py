@@ -11,7 +11,7 @@ from lobula.types import TRACE_DTYPE, Frame, Reading, Spikes
 RATE_HZ = 30.0
 
 
-def reading(time_s: float, collision: bool = False, state: str = "ok", lgmd1: float = 0.5, lgmd2: float = 0.5) -> Reading:
+def reading(time_s, collision=False, state="ok", lgmd1=0.5, lgmd2=0.5) -> Reading:
     return Reading(time_s, lgmd1, lgmd2, 0.0, 0.0, Spikes(), collision, state)
 
 
@@ -71,8 +71,7 @@ class LiveSource(FrameStream):
         self.name, self.width, self.height, self.fps, self.dropped = "camera", 99, 72, 30.0, 2
         self.frame_count = None
 
-    damaged = 0
-    notes = ()
+    damaged, notes = 0, ()
 
     @property
     def ended(self):

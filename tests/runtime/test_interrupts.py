@@ -20,10 +20,14 @@ def _handlers_are_put_back():
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_signal_during_work_waits_for_the_next_frame(number, code):
     done = []
-    with Interrupts() as interrupts, pytest.raises(Interrupted) as stop:
+
+    def work(interrupts):
         for item in interrupts.between(iter("abc")):
             signal.raise_signal(number)
             done.append(item)
+
+    with Interrupts() as interrupts, pytest.raises(Interrupted) as stop:
+        work(interrupts)
     assert done == ["a"]
     assert stop.value.exit_code == code
     assert str(stop.value) == number.name

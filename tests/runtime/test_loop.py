@@ -155,7 +155,7 @@ def test_a_silent_camera_is_stale_until_it_speaks(monkeypatch):
     script = [*frames(30), *([0.1] * 15), *frames(30, first=75)]
     outcome, records, _ = live(monkeypatch, script, network)
     assert [(r["state"], r["phase"], r["frame"]) for r in records] == [("stale", "start", 29), ("stale", "end", 75)]
-    assert records[0]["time_s"] == pytest.approx(29 / 30 + 1.1, abs=0.11)  # told within a tenth of the second being over
+    assert records[0]["time_s"] == pytest.approx(29 / 30 + 1.1, abs=0.11)  # told a tenth of a second late at most
     assert network.resets == 1
     assert (outcome.summary["frames"], outcome.summary["dropped"], outcome.exit_code) == (60, 2, 0)
 

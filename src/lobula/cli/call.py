@@ -34,8 +34,7 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         app: typer.Typer = import_module(f".{verb}", __package__).app
         command = typer.main.get_command(app)
         result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
-        code = result if isinstance(result, int) else 0
-        return code or _flushed(sys.stdout)
+        return _flushed(result if isinstance(result, int) else 0)
     except BrokenPipeError:
         _silence(sys.stdout)
         return 0
@@ -66,20 +65,18 @@ def _on_the_way(error: LobulaError) -> bool:
 
 def _complain(message: str, code: int) -> int:
     print(f"lobula: {message}", file=sys.stderr)
-    return _flushed(sys.stdout) or code
+    return _flushed(code)
 
 
-def _flushed(stream: TextIO) -> int:
-    """Flush what was printed; a reader that has gone is no fault, a full disk is."""
+def _flushed(code: int) -> int:
+    """Flush what was printed and return the exit code: a reader that has gone is no fault, a full disk is."""
     try:
-        stream.flush()
-    except BrokenPipeError:
-        _silence(stream)
+        sys.stdout.flush()
     except OSError as error:
-        _silence(stream)
-        print(f"lobula: cannot write standard output: {error.strerror}", file=sys.stderr)
-        return 3
-    return 0
+        _silence(sys.stdout)
+        if code == 0 and not isinstance(error, BrokenPipeError):
+            return _complain(f"cannot write standard output: {error.strerror}", 3)
+    return code
 
 
 def _silence(stream: TextIO) -> None:

@@ -92,10 +92,13 @@ def _watch(frames: FrameSource, params: NetworkParams, preset: str, network: Net
     # last: its summary knows what became of the files
     sinks: list[Sink] = [*files, NdjsonSink(sys.stdout) if json else Narrator(here.say)]
     header = run_header(frames, params, preset=preset, engine=network.engine)
-    for note in frames.notes:
+    told = frames.notes
+    for note in told:
         here.say(f"lobula: {note}")
     outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
     outcome = run_loop(frames, network, outputs, header, on_frame=here.advance)
+    for note in frames.notes[len(told) :]:
+        here.say(f"lobula: {note}")
     if outcome.message:
         here.say(f"lobula: {outcome.message}")
     return outcome.exit_code

@@ -124,13 +124,18 @@ def reading_of(row: np.void) -> Reading:
 def _start_record(event: Collision, reading: Reading) -> Record:
     potentials = {name: round(getattr(reading, name), 6) for name in NEURONS}
     return {"type": "collision", "phase": "start", "id": event.id, "frame": event.start_frame,
-            "time_s": event.start_s} | potentials
+            "time_s": _told(event.start_s)} | potentials
 
 
 def _end_record(event: Collision) -> Record:
-    return {"type": "collision", "phase": "end", "id": event.id, "frame": event.end_frame, "time_s": event.end_s,
-            "peak_frame": event.peak_frame}
+    return {"type": "collision", "phase": "end", "id": event.id, "frame": event.end_frame,
+            "time_s": _told(event.end_s), "peak_frame": event.peak_frame}
 
 
 def _state_record(state: State, phase: str, index: int, time_s: float) -> Record:
-    return {"type": "state", "state": state, "phase": phase, "frame": index, "time_s": time_s}
+    return {"type": "state", "state": state, "phase": phase, "frame": index, "time_s": _told(time_s)}
+
+
+def _told(time_s: float) -> float:
+    """A time as a record tells it: to the microsecond, so that equal stamps read alike however they were reckoned."""
+    return round(time_s, 6)

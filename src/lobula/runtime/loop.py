@@ -189,7 +189,8 @@ class _Tally:
             "ms_worst": round(1000 * self._worst_s, 4),
         }
         problems = [text for text in (self.message, *self._outputs.failures) if text]
-        return record | {"problems": problems} if problems else record
+        said = {"problems": problems, "notes": list(self._source.notes)}
+        return record | {name: texts for name, texts in said.items() if texts}
 
 
 def refused_summary(message: str) -> Record:
