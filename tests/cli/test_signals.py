@@ -49,6 +49,17 @@ def test_a_signal_while_it_waits_for_a_picture(waiting_run, tmp_path, number, co
 
 
 @pytest.mark.parametrize(("number", "code"), SIGNALS)
+def test_a_signal_before_the_source_is_open(spawn, number, code):
+    process = spawn("run", "-", "--json", stdin=subprocess.PIPE)
+    with pytest.raises(subprocess.TimeoutExpired):  # it waits for the first bytes of the pipe
+        process.wait(2)
+    process.send_signal(number)
+    out, err = process.communicate(timeout=30)
+    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n")
+    assert json.loads(out)["status"] == "interrupted"
+
+
+@pytest.mark.parametrize(("number", "code"), SIGNALS)
 def test_a_signal_while_it_works(spawn, tmp_path, number, code):
     images = np.random.default_rng(0).integers(0, 255, (2000, 72, 99), np.uint8)
     (tmp_path / "raw").write_bytes(images.tobytes())

@@ -7,7 +7,7 @@ import threading
 
 import pytest
 
-from lobula.runtime.interrupts import Interrupted, Interrupts
+from lobula.runtime.interrupts import Interrupted, Interrupts, raised_at_once
 
 
 @pytest.fixture(autouse=True)
@@ -62,3 +62,18 @@ def test_in_another_thread_it_does_nothing():
     thread.start()
     thread.join(5)
     assert seen == ["a", "b"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_elsewhere_a_signal_is_raised_at_once(number):
+    with raised_at_once(), pytest.raises(Interrupted) as stop:
+        signal.raise_signal(number)
+    assert stop.value.number == number
+
+
+def test_a_run_inside_has_its_own_way_and_gives_it_back():
+    with raised_at_once():
+        outer = signal.getsignal(signal.SIGINT)
+        with Interrupts():
+            assert signal.getsignal(signal.SIGINT) != outer
+        assert signal.getsignal(signal.SIGINT) == outer

@@ -10,7 +10,7 @@ import pytest
 from lobula.errors import FrameSourceError, OutputError, TimeError
 from lobula.frames import open as open_frames
 from lobula.runtime import loop
-from lobula.runtime.loop import refused_summary, run
+from lobula.runtime.loop import run, unbegun_summary
 from lobula.runtime.ndjson import ReaderGoneError
 from lobula.runtime.outputs import Outputs
 
@@ -41,7 +41,7 @@ def test_the_summary_has_the_keys_of_the_contract():
     outcome, _ = outcome_of(Source(frames(2)), [])
     keys = {"type", "status", "frames", "dropped", "collisions", "duration_s", "ms_per_frame"}
     assert keys <= set(outcome.summary)
-    assert set(outcome.summary) | {"problems"} == set(refused_summary("no"))
+    assert set(outcome.summary) | {"problems"} == set(unbegun_summary("refused", "no"))
 
 
 def test_a_source_that_fails_on_the_way():

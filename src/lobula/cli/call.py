@@ -13,6 +13,7 @@ from typing import Any, TextIO, cast
 import typer
 
 from ..errors import FrameSourceError, LobulaError, OutputError
+from ..runtime.interrupts import Interrupted, raised_at_once
 
 _ParserError = cast(type[Exception], typer.BadParameter.__mro__[2])
 """What the parser raises for a wrong command line: ``ClickException``, which typer names in no public place."""
@@ -33,7 +34,8 @@ def call(verb: str, arguments: Sequence[str]) -> int:
     try:
         app: typer.Typer = import_module(f".{verb}", __package__).app
         command = typer.main.get_command(app)
-        result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
+        with raised_at_once():
+            result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
         return _flushed(result if isinstance(result, int) else 0)
     except BrokenPipeError:
         _silence(sys.stdout)
@@ -45,8 +47,8 @@ def call(verb: str, arguments: Sequence[str]) -> int:
             raise
         _silence(sys.stdout)  # what could not be printed: files are written under their own names, with their own words
         return _complain(f"cannot write standard output: {error.strerror}", 3)
-    except (KeyboardInterrupt, typer.Abort):
-        return _complain("interrupted", 130)
+    except Interrupted as stop:
+        return _complain(f"interrupted ({stop})", stop.exit_code)
     except _ParserError as error:
         message = cast(Any, error).format_message().rstrip(".")
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)

@@ -59,7 +59,8 @@ def run(
     from ..engine.network import Network
     from ..frames import open as open_frames
     from ..model.scaling import scaled
-    from ..runtime.loop import refused_summary
+    from ..runtime.interrupts import Interrupted
+    from ..runtime.loop import unbegun_summary
     from ..runtime.ndjson import NdjsonSink
     from .settings import choose
 
@@ -74,11 +75,12 @@ def run(
             max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
         )  # fmt: skip
-    except LobulaError as error:
+    except (LobulaError, Interrupted) as error:
         if json:
-            NdjsonSink(sys.stdout).close(refused_summary(str(error)))
+            status = "interrupted" if isinstance(error, Interrupted) else "refused"
+            NdjsonSink(sys.stdout).close(unbegun_summary(status, str(error)))
         raise
-    with frames, screen(frames.frame_count, frames.name) as here:
+    with frames, screen(frames.frame_count, Path(frames.name).name) as here:
         return _watch(frames, params, chosen.preset, network, files, json, here)
 
 

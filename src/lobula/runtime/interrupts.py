@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
 from types import FrameType, TracebackType
-from typing import Any, Self, TypeVar
+from typing import Self, TypeVar
 
 T = TypeVar("T")
 
@@ -26,6 +27,32 @@ class Interrupted(BaseException):
         return 128 + self.number
 
 
+@contextmanager
+def raised_at_once() -> Iterator[None]:
+    """Raise ``Interrupted`` wherever the program is when a signal comes: for work that writes nothing piece by piece.
+
+    Outside the main thread, where Python handles no signals, it does nothing.
+    """
+
+    def stop(number: int, frame: FrameType | None) -> None:
+        raise Interrupted(number)
+
+    with _handled_by(stop):
+        yield
+
+
+@contextmanager
+def _handled_by(handler: Callable[[int, FrameType | None], None]) -> Iterator[None]:
+    """Give the signals to ``handler`` for as long as the context lasts."""
+    here = threading.current_thread() is threading.main_thread()
+    before = {number: signal.signal(number, handler) for number in SIGNALS} if here else {}
+    try:
+        yield
+    finally:
+        for number, former in before.items():
+            signal.signal(number, former)
+
+
 class Interrupts:
     """A context in which the first signal is noted and raised at a safe moment, and a second one ends the process.
 
@@ -35,18 +62,16 @@ class Interrupts:
     def __init__(self) -> None:
         self._number: int | None = None
         self._waiting = False
-        self._before: dict[int, Any] = {}
+        self._handled = ExitStack()
 
     def __enter__(self) -> Self:
-        if threading.current_thread() is threading.main_thread():
-            self._before = {number: signal.signal(number, self._note) for number in SIGNALS}
+        self._handled.enter_context(_handled_by(self._note))
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        for number, handler in self._before.items():
-            signal.signal(number, handler)
+        self._handled.close()
 
     def between(self, items: Iterator[T]) -> Iterator[T]:
         """Yield ``items``, raising between two of them, or while the next one is waited for.

@@ -193,7 +193,7 @@ class _Tally:
         return record | {name: texts for name, texts in said.items() if texts}
 
 
-def refused_summary(message: str) -> Record:
+def unbegun_summary(status: str, message: str) -> Record:
     """Return the summary of a run that never began, so that a reader of records always meets exactly one."""
-    return {"type": "summary", "status": "refused", "frames": 0, "dropped": 0, "damaged": 0, "collisions": 0,
+    return {"type": "summary", "status": status, "frames": 0, "dropped": 0, "damaged": 0, "collisions": 0,
             "duration_s": 0.0, "ms_per_frame": 0.0, "ms_worst": 0.0, "problems": [message]}
