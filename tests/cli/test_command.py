@@ -44,7 +44,7 @@ def test_version(call):
         (["rnu"], "lobula: unknown command rnu: did you mean run?"),
         (["xyz"], "lobula: unknown command xyz: must be one of demo, run,"),
         (["run"], "lobula: run: Missing argument 'SOURCE'; see `lobula run --help`"),
-        (["run", "x", "--sise", "1"], "lobula: run: No such option: --sise"),
+        (["run", "x", "--sise", "1"], "lobula: run: No such option"),
         (["run", "x", "--stride", "many"], "lobula: run: Invalid value for '--stride'"),
         (["config", "shw"], "lobula: config: No such command 'shw'"),
     ],

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import array
+import fcntl
 import json
 import signal
 import subprocess
+import termios
+import time
 
 import numpy as np
 import pytest
@@ -14,6 +18,15 @@ from lobula.report.trace_file import read_trace
 
 FRAMES = 40
 SIGNALS = [(signal.SIGINT, 130), (signal.SIGTERM, 143)]
+
+
+def wait_until_read(pipe):
+    """Return when nothing of what was written to ``pipe`` is left in it."""
+    left, deadline_s = array.array("i", [1]), time.monotonic() + 30
+    while left[0]:
+        assert time.monotonic() < deadline_s
+        time.sleep(0.01)
+        fcntl.ioctl(pipe, termios.FIONREAD, left)
 
 
 @pytest.fixture
@@ -50,12 +63,13 @@ def test_a_signal_while_it_waits_for_a_picture(waiting_run, tmp_path, number, co
 
 @pytest.mark.parametrize(("number", "code"), SIGNALS)
 def test_a_signal_before_the_source_is_open(spawn, number, code):
-    process = spawn("run", "-", "--json", stdin=subprocess.PIPE)
-    with pytest.raises(subprocess.TimeoutExpired):  # it waits for the first bytes of the pipe
-        process.wait(2)
+    process = spawn("run", "-", "--json", stdin=subprocess.PIPE, text=False)
+    process.stdin.write(b"x")
+    process.stdin.flush()
+    wait_until_read(process.stdin)  # now it waits for the second byte
     process.send_signal(number)
     out, err = process.communicate(timeout=30)
-    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n")
+    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n".encode())
     assert json.loads(out)["status"] == "interrupted"
 
 

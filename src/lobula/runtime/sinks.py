@@ -19,7 +19,7 @@ class Sink(Protocol):
 
     The order of calls is ``open``, then ``frame`` and ``event`` as they come, then ``close``. ``close`` is called
     exactly once after ``open`` was tried, also when ``open``, ``frame`` or the source failed, and must leave a
-    readable file. Sinks are opened and closed in the order they were given.
+    readable file. Sinks are closed in the order they were given and opened in the opposite one.
 
     Raises
     ------
