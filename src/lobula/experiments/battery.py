@@ -51,7 +51,10 @@ def rate_changes(params: NetworkParams, rates_hz: Collection[float], engine: Eng
     for rate_hz in rates_hz:
         for scored in score(params, rate_hz=rate_hz, engine=engine):
             name = scored.case.name
-            pairs = {"all": (base[name].all_s, scored.result.all_s), "lgmds": (base[name].lgmds_s, scored.result.lgmds_s)}
+            pairs = {
+                "all": (base[name].all_s, scored.result.all_s),
+                "lgmds": (base[name].lgmds_s, scored.result.lgmds_s),
+            }
             for neurons, (before, now) in pairs.items():
                 if not _agree(before, now):
                     yield RateChange(name, rate_hz, neurons, before, now)
