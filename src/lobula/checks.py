@@ -25,11 +25,11 @@ def require_images(images: Any, ndims: tuple[int, ...], where: str) -> NDArray[A
     ShapeError : any of the above
     """
     a = np.asarray(images)
+    hint = "; colour: use image[..., :3] @ [0.299, 0.587, 0.114]" if a.ndim > 2 and a.shape[-1] in (3, 4) else ""
     if a.ndim not in ndims:
         wanted = " or ".join({2: "(H, W)", 3: "(T, H, W)", 4: "(S, T, H, W)"}[n] for n in ndims)
-        raise ShapeError(f"{where}: shape {a.shape}: must be {wanted} luminance")
-    if a.ndim >= 3 and a.shape[-1] in (1, 3, 4) or min(a.shape, default=0) == 0:
-        hint = "; colour: use (image @ [0.299, 0.587, 0.114])" if a.shape and a.shape[-1] in (3, 4) else ""
+        raise ShapeError(f"{where}: shape {a.shape}: must be {wanted} luminance{hint}")
+    if (a.ndim >= 3 and a.shape[-1] in (1, 3, 4)) or min(a.shape, default=0) == 0:
         raise ShapeError(f"{where}: shape {a.shape}: must be luminance of at least {MIN_HEIGHT} rows x "
                          f"{MIN_WIDTH} columns{hint}")
     if a.shape[-2] < MIN_HEIGHT or a.shape[-1] < MIN_WIDTH:
