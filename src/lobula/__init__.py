@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     from . import stimuli
     from .engine.network import Network
     from .errors import LobulaError
-    from .frames import open
     from .model.network import NetworkParams
     from .model.presets import preset
+    from .runtime.opening import open
     from .types import Frame, Reading, Spikes
 
 __all__ = [
@@ -47,7 +47,7 @@ _HOMES = {
     "NetworkParams": "model.network",
     "Reading": "types",
     "Spikes": "types",
-    "open": "frames",
+    "open": "runtime.opening",
     "preset": "model.presets",
 }
 _MODULES = ("stimuli",)

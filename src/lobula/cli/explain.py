@@ -41,9 +41,9 @@ def explain(
 ) -> None:
     """Say why the network did, or did not, alarm at a moment of SOURCE: its layers, its sums, its rule."""
     from ..engine.network import Network
-    from ..frames import open as open_frames
     from ..model.scaling import scaled
     from ..runtime.explanation import explain as explain_frame
+    from ..runtime.opening import open as open_frames
     from .print_json import print_json
     from .progress import say
     from .settings import choose

@@ -57,11 +57,11 @@ def run(
     starts or ends, one summary, whatever happens.
     """
     from ..engine.network import Network
-    from ..frames import open as open_frames
     from ..model.scaling import scaled
     from ..runtime.interrupts import Interrupted
     from ..runtime.loop import unbegun_summary
     from ..runtime.ndjson import NdjsonSink
+    from ..runtime.opening import open as open_frames
     from .settings import choose
 
     try:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import LobulaError
-from ..frames import open as open_frames
 from ..report.trace import trace_row
+from ..runtime.opening import open as open_frames
 from ..types import TRACE_DTYPE, Frame, Reading
 from .labels import Label
 from .scoring import ClipScore, last_frame, score_clip
