@@ -91,6 +91,7 @@ def _watch(frames: FrameSource, params: NetworkParams, preset: str, network: Net
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from .narrator import Narrator
+
     # last: its summary knows what became of the files
     sinks: list[Sink] = [*files, NdjsonSink(sys.stdout) if json else Narrator(here.say)]
     header = run_header(frames, params, preset=preset, engine=network.engine)
