@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..engine.network import Network
-from ..frames import open as open_frames
+from ..runtime.opening import open as open_frames
 from .scenes import RATE_HZ, Images, scenes
 from .timing import Pass
 
