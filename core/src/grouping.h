@@ -5,22 +5,47 @@
 #ifndef LOBULA_GROUPING_H
 #define LOBULA_GROUPING_H
 
-#include "scratch.h"
+#include "lateral_inhibition.h"
 
-/* The summation S of both channels, and the sum of three rows of it. */
-INLINE void sum_row(int n, const lgmd_plan *q, const float *on, const float *off, float *restrict sum,
-                    const float *above, const float *middle, float *restrict column, int product) {
+/* The summations of both LGMDs lie side by side, vector by vector. */
+enum { SUMS = 2 };
+
+/* One channel: what excites it and what inhibits it. */
+typedef struct {
+    const float *excitation, *inhibition;
+} channel_rows;
+
+INLINE vf channel_at(const channel_rows *c, int x, vf bias) {
+    return compete(vf_load(c->excitation + x), vf_load(c->inhibition + x), bias);
+}
+
+/* The summation S of one LGMD from its channels; `out` points at its place among the two. */
+INLINE void sum_row_as(int n, const lgmd_plan *q, const channel_rows *c, float *restrict out, int kind) {
+    vf bias_on = vf_all(q->bias[ON]), bias_off = vf_all(q->bias[OFF]), product_gain = vf_all(q->product_gain);
+    vf gain_on = vf_all(q->gain[ON]), gain_off = vf_all(q->gain[OFF]);
+    channel_rows on = c[ON], off = c[OFF];
     for (int x = 0; x < n; x += LANES) {
-        vf a = vf_load(on + x), b = vf_load(off + x);
-        vf s = product ? vf_all(q->gain[0]) * a + vf_all(q->gain[1]) * b + vf_all(q->gain[2]) * (a * b) : a + b;
-        vf_store(sum + x, s);
-        if (column) vf_store(column + x, vf_load(above + x) + vf_load(middle + x) + s);
+        vf sum = vf_all(0.0f), a = sum, b = sum;
+        if (kind != SUM_OFF) sum += gain_on * (a = channel_at(&on, x, bias_on));
+        if (kind != SUM_ON) sum += gain_off * (b = channel_at(&off, x, bias_off));
+        if (kind == SUM_PRODUCT) sum += product_gain * (a * b);
+        vf_store(out + x * SUMS, sum);
     }
 }
 
-INLINE void column_row(int n, const float *above, const float *middle, const float *below, float *restrict column) {
+static void sum_row(int n, const lgmd_plan *q, const channel_rows *c, float *out) {
+    switch (q->kind) {
+    case SUM_ON: sum_row_as(n, q, c, out, SUM_ON); break;
+    case SUM_OFF: sum_row_as(n, q, c, out, SUM_OFF); break;
+    case SUM_BOTH: sum_row_as(n, q, c, out, SUM_BOTH); break;
+    case SUM_PRODUCT: sum_row_as(n, q, c, out, SUM_PRODUCT); break;
+    default: break;
+    }
+}
+
+static void column_row(int n, const float *above, const float *middle, const float *below, float *restrict column) {
     for (int x = 0; x < n; x += LANES)
-        vf_store(column + x, vf_load(above + x) + vf_load(middle + x) + vf_load(below + x));
+        vf_store(column + x, vf_load(above + x * SUMS) + vf_load(middle + x * SUMS) + vf_load(below + x * SUMS));
 }
 
 typedef struct {
@@ -32,7 +57,7 @@ INLINE grouped group_vector(vf sum, vf around, vf least, grouped g) {
     vf product = sum * around;
     g.strongest = vf_max(g.strongest, around);
     vf_store(g.list, product);
-    g.list += vm_any(vf_ge(product, least)) ? LANES : 0;
+    g.list += (unsigned)vm_any(vf_ge(product, least)) * LANES;
     return g;
 }
 
@@ -41,12 +66,12 @@ INLINE grouped group_row(int width, int s, const float *sum, const float *column
     int whole = width / LANES * LANES;
     vf least = vf_all(limit);
     for (int x = 0; x < whole; x += LANES)
-        g = group_vector(vf_load(sum + x), vf_load(column + x - s) + vf_load(column + x) + vf_load(column + x + s),
+        g = group_vector(vf_load(sum + x * SUMS), vf_load(column + x - s) + vf_load(column + x) + vf_load(column + x + s),
                          least, g);
     if (whole < width) {
         const float *last = column + whole;
         vf around = vf_load(last - s) + vf_load(last) + vf_load(last + s);
-        g = group_vector(vf_load(sum + whole), vf_keep(vm_first(width - whole), around), least, g);
+        g = group_vector(vf_load(sum + whole * SUMS), vf_keep(vm_first(width - whole), around), least, g);
     }
     return g;
 }
@@ -54,8 +79,8 @@ INLINE grouped group_row(int width, int s, const float *sum, const float *column
 INLINE vd total_row(int width, const float *sum, vd total) {
     int whole = width / LANES * LANES;
     vf row = vf_all(0.0f);
-    for (int x = 0; x < whole; x += LANES) row += vf_load(sum + x);
-    if (whole < width) row += vf_keep(vm_first(width - whole), vf_load(sum + whole));
+    for (int x = 0; x < whole; x += LANES) row += vf_load(sum + x * SUMS);
+    if (whole < width) row += vf_keep(vm_first(width - whole), vf_load(sum + whole * SUMS));
     vd_add(&total, row);
     return total;
 }

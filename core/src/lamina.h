@@ -6,18 +6,26 @@
 
 #include "scratch.h"
 
+/* Weights as vectors: read once a row, since for all the compiler knows a store into a row may change them. */
+INLINE void spread(const float *weights, int R, vf *vectors) {
+    UNROLL for (int k = 0; k <= R; k++) vectors[k] = vf_all(weights[k]);
+}
+
 /* model.lamina.dog.gaussian_blur down the columns, both fields at once: the kernels are symmetric, so pairs of pixels
  * are added up first and serve both. `rows` are those around the present one, which is rows[R]; weights go from the
  * centre outwards. Adding rows first and columns second, or the other way round, is the same but for rounding. */
 INLINE void blur_down(float *const *rows, int n, const float *inner, int r, const float *outer, int R,
                       float *restrict e, float *restrict i) {
+    vf a_weight[MAX_RADIUS + 1], b_weight[MAX_RADIUS + 1];
+    spread(inner, r, a_weight);
+    spread(outer, R, b_weight);
     for (int x = 0; x < n; x += LANES) {
         vf middle = vf_load(rows[R] + x);
-        vf a = vf_all(inner[0]) * middle, b = vf_all(outer[0]) * middle;
+        vf a = a_weight[0] * middle, b = b_weight[0] * middle;
         UNROLL for (int k = 1; k <= R; k++) {
             vf pair = vf_load(rows[R - k] + x) + vf_load(rows[R + k] + x);
-            if (k <= r) a += vf_all(inner[k]) * pair;
-            b += vf_all(outer[k]) * pair;
+            if (k <= r) a += a_weight[k] * pair;
+            b += b_weight[k] * pair;
         }
         vf_store(e + x, a);
         vf_store(i + x, b);
@@ -25,9 +33,9 @@ INLINE void blur_down(float *const *rows, int n, const float *inner, int r, cons
 }
 
 /* The same along a row, which has margins. */
-INLINE vf blur_along(const float *row, const float *weights, int R) {
-    vf sum = vf_all(weights[0]) * vf_load(row);
-    UNROLL for (int k = 1; k <= R; k++) sum += vf_all(weights[k]) * (vf_load(row - k) + vf_load(row + k));
+INLINE vf blur_along(const float *row, const vf *weights, int R) {
+    vf sum = weights[0] * vf_load(row);
+    UNROLL for (int k = 1; k <= R; k++) sum += weights[k] * (vf_load(row - k) + vf_load(row + k));
     return sum;
 }
 
@@ -74,10 +82,13 @@ INLINE void adapt(vf signal, vf residual, vf share, float *kept, float *adapted,
 INLINE void lamina_row_as(int n, const float *e, const float *i, const float *inner, int r, const float *outer, int R,
                           const step_plan *p, const lamina_rows *rows, int fdsr) {
     lamina_rows q = *rows;
+    vf a_weight[MAX_RADIUS + 1], b_weight[MAX_RADIUS + 1];
+    spread(inner, r, a_weight);
+    spread(outer, R, b_weight);
     vf dead_zone = vf_all(p->dead_zone), below = below_zone(p->dead_zone);
     vf residual = vf_all(p->residual), share = vf_all(p->fdsr_share);
     for (int x = 0; x < n; x += LANES) {
-        on_off edge = edges(blur_along(e + x, inner, r), blur_along(i + x, outer, R), dead_zone, below);
+        on_off edge = edges(blur_along(e + x, a_weight, r), blur_along(i + x, b_weight, R), dead_zone, below);
         adapt(edge.on, residual, share, q.kept[0] + x, q.adapted[0] + x, q.before[0] + x, fdsr);
         adapt(edge.off, residual, share, q.kept[1] + x, q.adapted[1] + x, q.before[1] + x, fdsr);
     }
@@ -97,9 +108,12 @@ static void lamina_row_unfiltered(int n, const float *change, const step_plan *p
 /* The signed edges themselves, only for a tap. */
 static void edges_map(int width, const float *e, const float *i, const float *inner, int r, const float *outer, int R,
                       float dead_zone, float *map) {
+    vf a_weight[MAX_RADIUS + 1], b_weight[MAX_RADIUS + 1];
+    spread(inner, r, a_weight);
+    spread(outer, R, b_weight);
     for (int x = 0; x < width; x += LANES) {
         float row[LANES];
-        on_off edge = edges(blur_along(e + x, inner, r), blur_along(i + x, outer, R), vf_all(dead_zone),
+        on_off edge = edges(blur_along(e + x, a_weight, r), blur_along(i + x, b_weight, R), vf_all(dead_zone),
                             below_zone(dead_zone));
         vf_store(row, edge.on - edge.off);
         for (int lane = 0; lane < LANES && x + lane < width; lane++) map[x + lane] = row[lane];

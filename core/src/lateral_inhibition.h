@@ -1,36 +1,63 @@
-/* model/medulla/lateral_inhibition.py: Eqs. (1) and (2) of the paper for one channel, [g (E - w I)]+.
+/* model/medulla/lateral_inhibition.py: Eqs. (1) and (2) of the paper.
  *
- * I is linear in E now and one step ago, so each row needs its own weighted sum (`own`, with E itself) and the one it
- * hands to the rows above and below (`across`); w and g are in the weights. */
+ * I is linear in E now and one step ago, so each row needs its own weighted sum (`own`) and the one it hands to the
+ * rows above and below (`across`). */
 #ifndef LOBULA_LATERAL_INHIBITION_H
 #define LOBULA_LATERAL_INHIBITION_H
 
 #include "scratch.h"
 
-enum { WEIGH_ONLY, WEIGH_AND_COMPETE };
+/* The two sums of two channels lie side by side, vector by vector, so that one pointer serves all four. */
+enum { OWN = 0, ACROSS = 2, WEIGHED = 4 };
 
-/* Weigh row y of the excitation, and where asked compete in row y - spacing, whose neighbours are now complete. */
-INLINE void inhibition_row(int n, const inhibition_set *q, int s, const float *now, const float *before,
-                           float *restrict own, float *restrict across, const float *own_above,
-                           const float *across_above, float *restrict part, int mode) {
-    vf w0 = vf_all(q->own[0]), w1 = vf_all(q->own[1]), w2 = vf_all(q->own[2]), w3 = vf_all(q->own[3]);
-    vf a0 = vf_all(q->across[0]), a1 = vf_all(q->across[1]), a2 = vf_all(q->across[2]), a3 = vf_all(q->across[3]);
-    for (int x = 0; x < n; x += LANES) {
-        vf e = vf_load(now + x), sides = vf_load(now + x - s) + vf_load(now + x + s);
-        vf b = vf_load(before + x), sides_before = vf_load(before + x - s) + vf_load(before + x + s);
-        vf below = a0 * e + a1 * sides + (a2 * b + a3 * sides_before);
-        vf_store(across + x, below);
-        vf mine = w0 * e + w1 * sides + (w2 * b + w3 * sides_before);
-        vf_store(own + x, mine);
-        if (mode == WEIGH_AND_COMPETE)
-            vf_store(part + x, vf_max(vf_load(own_above + x) - vf_load(across_above + x) - below, vf_all(0.0f)));
+typedef struct {
+    vf own[4], across[4];
+} ring_weights;
+
+typedef struct {
+    vf own, across;
+} weighed;
+
+INLINE ring_weights weights_of(const inhibition_set *q) {
+    ring_weights w;
+    UNROLL for (int i = 0; i < 4; i++) {
+        w.own[i] = vf_all(q->own[i]);
+        w.across[i] = vf_all(q->across[i]);
+    }
+    return w;
+}
+
+INLINE weighed weigh(const ring_weights *w, const float *now, const float *before, int s) {
+    vf e = vf_load(now), sides = vf_load(now - s) + vf_load(now + s);
+    vf b = vf_load(before), sides_before = vf_load(before - s) + vf_load(before + s);
+    weighed r = {w->own[0] * e + w->own[1] * sides + (w->own[2] * b + w->own[3] * sides_before),
+                 w->across[0] * e + w->across[1] * sides + (w->across[2] * b + w->across[3] * sides_before)};
+    return r;
+}
+
+/* Weigh one channel of a row; `out` points at its place among the four. */
+static void weigh_row(int n, const inhibition_set *q, const float *now, const float *before, float *restrict out) {
+    ring_weights w = weights_of(q);
+    for (int x = 0; x < n; x += LANES, out += WEIGHED * LANES) {
+        weighed r = weigh(&w, now + x, before + x, q->spacing);
+        vf_store(out + OWN * LANES, r.own);
+        vf_store(out + ACROSS * LANES, r.across);
     }
 }
 
-/* Compete where the row below is long since weighed: at the picture's lower border. */
-INLINE void compete_row(int n, const float *own, const float *above, const float *below, float *restrict part) {
-    for (int x = 0; x < n; x += LANES)
-        vf_store(part + x, vf_max(vf_load(own + x) - vf_load(above + x) - vf_load(below + x), vf_all(0.0f)));
+/* I of one channel, from the weighed rows around. */
+static void inhibition_row(int n, const float *middle, const float *above, const float *below,
+                           float *restrict inhibition) {
+    for (int x = 0; x < n; x += LANES) {
+        int at = x * WEIGHED;
+        vf_store(inhibition + x, vf_load(middle + at + OWN * LANES) + vf_load(above + at + ACROSS * LANES) +
+                                     vf_load(below + at + ACROSS * LANES));
+    }
+}
+
+/* model.medulla.lateral_inhibition.compete */
+INLINE vf compete(vf excitation, vf inhibition, vf bias) {
+    return vf_max(excitation - bias * inhibition, vf_all(0.0f));
 }
 
 #endif

@@ -37,8 +37,6 @@ typedef struct {
     size_t kernel_at;       /* offset of the DoG weights, bytes */
     size_t window_at;       /* offset of the decision's entries, bytes */
     size_t state_bytes;
-    size_t scratch_bytes; /* of one frame at work, without its taps */
-    size_t tap_bytes;     /* more rows, for the inhibition taps */
 } layout;
 
 /* Fill `l`, or say that the size or a setting cannot be. */

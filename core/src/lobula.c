@@ -20,7 +20,7 @@ size_t lobula_workspace_size(const lobula_params *p, int width, int height, int 
     layout l;
     if (!p || frames < 1 || layout_init(&l, p, width, height) != LOBULA_OK) return 0;
     const kernels *k = kernels_of(0); /* all of them lay it out alike */
-    return k->scratch_bytes(&l) * (size_t)(frames < MAX_FRAMES ? frames : MAX_FRAMES) + k->tap_bytes(&l);
+    return k->scratch_bytes(&l) * (size_t)(frames < MAX_FRAMES ? frames : MAX_FRAMES);
 }
 
 int lobula_block_frames(const lobula_params *p, int width, int height) {

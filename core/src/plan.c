@@ -22,13 +22,10 @@ static rings rings_of(const lobula_inhibition_params *p, double clock_ms) {
     return r;
 }
 
-/* The weights of gain (E - bias I); with gain 0 and bias 1, of -I. */
-static inhibition_set weigh(const rings *r, double excitation, double inhibition) {
+static inhibition_set weigh(const rings *r) {
     inhibition_set q = {
-        .own = {(float)(excitation - inhibition * r->now[0]), (float)(-inhibition * r->now[1]),
-                (float)(-inhibition * r->then[0]), (float)(-inhibition * r->then[1])},
-        .across = {(float)(inhibition * r->now[1]), (float)(inhibition * r->now[2]), (float)(inhibition * r->then[1]),
-                   (float)(inhibition * r->then[2])},
+        .own = {(float)r->now[0], (float)r->now[1], (float)r->then[0], (float)r->then[1]},
+        .across = {(float)r->now[1], (float)r->now[2], (float)r->then[1], (float)r->then[2]},
     };
     return q;
 }
@@ -51,45 +48,33 @@ static int silenced(const rings *r, double bias) { return bias * r->now[0] >= 1.
 static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double arousal) {
     const lobula_lgmd_params *q = j ? &s->params.lgmd2 : &s->params.lgmd1;
     const lobula_inhibition_params *inhibition[2] = {&q->on, &q->off};
-    double gain[2] = {q->on_gain, q->off_gain}, bias[2];
-    rings r[2];
+    const double gain[2] = {q->on_gain, q->off_gain};
+    lgmd_plan *lgmd = &p->lgmd[j];
+    inhibition_set set[2];
     int speaks[2];
     for (int c = 0; c < 2; c++) {
-        r[c] = rings_of(inhibition[c], s->params.clock.period_ms);
-        bias[c] = inhibition[c]->bias > arousal ? inhibition[c]->bias : arousal;
-        speaks[c] = !silenced(&r[c], bias[c]);
-    }
-    lgmd_plan *lgmd = &p->lgmd[j];
-    int product = speaks[ON] && speaks[OFF] && q->product_gain != 0.0;
-    for (int c = 0; c < 2; c++) {
+        rings r = rings_of(inhibition[c], s->params.clock.period_ms);
+        double bias = inhibition[c]->bias > arousal ? inhibition[c]->bias : arousal;
+        set[c] = weigh(&r);
+        set[c].source = s->layout.reads[j];
+        set[c].channel = c;
+        set[c].spacing = s->layout.spacing[j];
+        speaks[c] = !silenced(&r, bias);
+        lgmd->bias[c] = (float)bias;
         lgmd->gain[c] = (float)gain[c];
-        lgmd->set[c] = NO_SET;
-        if (!speaks[c] || (!product && gain[c] == 0.0)) continue;
-        inhibition_set set = weigh(&r[c], product ? 1.0 : gain[c], (product ? 1.0 : gain[c]) * bias[c]);
-        set.source = s->layout.reads[j];
-        set.channel = c;
-        set.spacing = s->layout.spacing[j];
-        lgmd->set[c] = find_or_add(p, set);
     }
-    lgmd->gain[2] = (float)q->product_gain;
-    int both = lgmd->set[ON] != NO_SET && lgmd->set[OFF] != NO_SET;
-    int one = lgmd->set[ON] != NO_SET || lgmd->set[OFF] != NO_SET;
-    lgmd->kind = product ? SUM_PRODUCT : both ? SUM_BOTH : one ? SUM_ONE : SUM_NONE;
+    int product = speaks[ON] && speaks[OFF] && q->product_gain != 0.0;
+    int on = speaks[ON] && (product || gain[ON] != 0.0), off = speaks[OFF] && (product || gain[OFF] != 0.0);
+    lgmd->kind = product ? SUM_PRODUCT : on && off ? SUM_BOTH : on ? SUM_ON : off ? SUM_OFF : SUM_NONE;
+    for (int c = 0; c < 2; c++) {
+        int tapped = p->taps && p->taps[LOBULA_TAP_LGMD1_INHIBITION_ON + 4 * j + c];
+        lgmd->set[c] = (c == ON ? on : off) || tapped ? find_or_add(p, set[c]) : NO_SET;
+    }
+    lgmd->product_gain = (float)q->product_gain;
     lgmd->grouping = q->grouping.enabled != 0.0;
     lgmd->threshold_grey = q->grouping.threshold_grey;
     lgmd->floor_grey = q->grouping.floor_grey;
     lgmd->divisor = q->grouping.divisor;
-
-    for (int c = 0; c < 2 && p->taps; c++) {
-        float *map = p->taps[LOBULA_TAP_LGMD1_INHIBITION_ON + 4 * j + c];
-        if (!map) continue;
-        inhibition_set set = weigh(&r[c], 0.0, 1.0);
-        set.source = s->layout.reads[j];
-        set.channel = c;
-        set.spacing = s->layout.spacing[j];
-        p->tap_set[p->tap_sets] = set;
-        p->tap_set_out[p->tap_sets++] = map;
-    }
 }
 
 static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double mean_change, double clock_ms) {
@@ -118,7 +103,7 @@ void plan_step(lobula_state *s, planned_step *step, double mean_change) {
         p->span[i] = stretched((int)emd->spans_px[i], step->ticks);
         p->span_share[i] = (float)(1.0 - low_pass_share(clock_ms, emd->delays_ms[i]));
     }
-    p->sets = p->tap_sets = 0;
+    p->sets = 0;
     plan_lgmd(s, p, 0, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, clock_ms));
     plan_lgmd(s, p, 1, arousal(&q->lgmd2, &s->now.lgmd2, mean_change, clock_ms));
 }

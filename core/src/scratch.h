@@ -28,12 +28,13 @@ typedef struct {
     ring adapted[2]; /* zero margins for the EMDs, then edges repeated outwards for the LGMDs */
     ring before[2];  /* the same one step ago, where someone needs it apart from the state */
     ring retina[E_ROWS]; /* excitation by the change itself */
-    ring own[MAX_SETS], across[MAX_SETS], part[MAX_SETS];
-    ring summation[2];
+    ring weighed[MAX_SETS / 2]; /* two sets in each, see lateral_inhibition.h */
+    float *inhibition[MAX_SETS]; /* one row of I of each set */
+    ring sums; /* of both LGMDs, see grouping.h */
     ring column[2]; /* three rows of the summation, added up */
-    ring tap_own[MAX_SETS], tap_across[MAX_SETS];
     float *list[2]; /* vectors of grouped cells that may reach the threshold */
     size_t listed[2];
+    int usual; /* whether usual.h can do the LGMDs */
     float strongest[2]; /* largest 3 x 3 sum so far */
     vd hs;
     vd total[2];
@@ -88,26 +89,16 @@ static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     s->inner = take_long(m, l, l->outer_radius ? 2 : 0);
     s->outer = take_long(m, l, l->outer_radius ? 2 : 0);
     for (int c = 0; c < 2; c++) {
-        s->adapted[c] = take_long(m, l, 4);
+        s->adapted[c] = take_long(m, l, 2 * l->ring);
         s->before[c] = take_long(m, l, lgmds_read_lamina || l->planes.adapted < 0 ? 4 : 0);
     }
-    for (int k = 0; k < E_ROWS; k++) s->retina[k] = take_long(m, l, lgmds_read_change ? 2 : 0);
-    for (int k = 0; k < MAX_SETS; k++) {
-        s->own[k] = take_short(m, l, l->ring);
-        s->across[k] = take_short(m, l, l->ring);
-        s->part[k] = take_short(m, l, l->ring);
-    }
+    for (int k = 0; k < E_ROWS; k++) s->retina[k] = take_long(m, l, lgmds_read_change ? l->ring : 0);
+    for (int k = 0; k < MAX_SETS / 2; k++) s->weighed[k] = take_ring(m, l->ring, 4 * l->stride, 0);
+    for (int k = 0; k < MAX_SETS; k++) s->inhibition[k] = take(m, (size_t)l->stride);
+    s->sums = take_ring(m, l->ring, 2 * l->stride, 0);
     for (int j = 0; j < 2; j++) {
-        s->summation[j] = take_short(m, l, l->ring);
         s->column[j] = take_long(m, l, 2);
         s->list[j] = take(m, (size_t)l->height * (size_t)l->stride + ROW_FLOATS);
-    }
-}
-
-static inline void scratch_taps(const layout *l, memory *m, scratch *s) {
-    for (int k = 0; k < MAX_SETS; k++) {
-        s->tap_own[k] = take_short(m, l, l->ring);
-        s->tap_across[k] = take_short(m, l, l->ring);
     }
 }
 

@@ -13,6 +13,7 @@
 #include "lateral_inhibition.h"
 #include "retina.h"
 #include "scratch.h"
+#include "usual.h"
 
 /* What stays the same for all rows of all frames of a sweep. */
 typedef struct {
@@ -133,73 +134,86 @@ static const ring *excitation_of(const scratch *k, int source, int channel, int 
     return before ? &k->before[channel] : &k->adapted[channel];
 }
 
-/* One set: weigh row y, compete in row y - spacing. Past the lower border there is nothing left to weigh. */
-static void set_row(const constants *c, scratch *k, const inhibition_set *q, int set, int y) {
-    int s = q->spacing, mid = y - s, competes = mid >= 0, height = c->l->height;
-    const ring *own = &k->own[set], *across = &k->across[set];
-    float *above = competes ? row_of(across, clamp(mid - s, height)) : NULL;
-    float *middle = competes ? row_of(own, mid) : NULL, *out = competes ? row_of(&k->part[set], mid) : NULL;
-    if (y < height) {
-        const float *now = row_of(excitation_of(k, q->source, q->channel, 0), y);
-        const float *before = row_of(excitation_of(k, q->source, q->channel, 1), y);
-        float *mine = row_of(own, y), *hands_on = row_of(across, y);
-        if (competes && mid - s >= 0)
-            inhibition_row(c->n, q, s, now, before, mine, hands_on, middle, above, out, WEIGH_AND_COMPETE);
-        else
-            inhibition_row(c->n, q, s, now, before, mine, hands_on, NULL, NULL, NULL, WEIGH_ONLY);
-        if (competes && mid - s < 0) compete_row(c->n, middle, above, hands_on, out);
-    } else if (competes) {
-        compete_row(c->n, middle, above, row_of(across, height - 1), out);
-    }
+static float *weighed_of(const scratch *k, int set, int y) {
+    return row_of(&k->weighed[set / 2], y) + set % 2 * LANES;
 }
 
-/* Inhibition as such, for a tap: a set without E and without a floor, so what competes is -I. */
-static void inhibition_map(const constants *c, scratch *k, const step_plan *p, int i, int y) {
-    const inhibition_set *q = &p->tap_set[i];
+/* One set: weigh row y; the inhibition of row y - spacing is then complete. Past the lower border there is nothing
+ * left to weigh. */
+static void set_row(const constants *c, scratch *k, const step_plan *p, int set, int y) {
+    const inhibition_set *q = &p->set[set];
     int s = q->spacing, mid = y - s, height = c->l->height;
     if (y < height)
-        inhibition_row(c->n, q, s, row_of(excitation_of(k, q->source, q->channel, 0), y),
-                       row_of(excitation_of(k, q->source, q->channel, 1), y), row_of(&k->tap_own[i], y),
-                       row_of(&k->tap_across[i], y), NULL, NULL, NULL, WEIGH_ONLY);
+        weigh_row(c->n, q, row_of(excitation_of(k, q->source, q->channel, 0), y),
+                  row_of(excitation_of(k, q->source, q->channel, 1), y), weighed_of(k, set, y));
     if (mid < 0) return;
-    const float *own = row_of(&k->tap_own[i], mid), *above = row_of(&k->tap_across[i], clamp(mid - s, height));
-    const float *below = row_of(&k->tap_across[i], clamp(y, height));
-    float *out = p->tap_set_out[i] + (size_t)mid * (size_t)c->l->width;
-    for (int x = 0; x < c->l->width; x++) out[x] = above[x] + below[x] - own[x];
+    inhibition_row(c->n, weighed_of(k, set, mid), weighed_of(k, set, clamp(mid - s, height)),
+                   weighed_of(k, set, clamp(y, height)), k->inhibition[set]);
+    for (int j = 0; j < 2; j++)
+        if (p->lgmd[j].set[q->channel] == set)
+            copy_to_tap(p, LOBULA_TAP_LGMD1_INHIBITION_ON + 4 * j + q->channel, c->l, mid, k->inhibition[set]);
 }
 
-static const ring *summation_of(const scratch *k, const lgmd_plan *q, int j) {
-    if (q->kind != SUM_ONE) return &k->summation[j];
-    return &k->part[q->set[q->set[ON] == NO_SET]];
+static float *sums_of(const scratch *k, int j, int y) { return row_of(&k->sums, y) + j * LANES; }
+
+static void sums_map(const constants *c, const step_plan *p, int tap, int y, const float *sums) {
+    float *map = tap_row(p, tap, c->l, y);
+    for (int x = 0; map && x < c->l->width; x++) map[x] = sums[x / LANES * LANES * SUMS + x % LANES];
 }
 
 /* Row y of the summation, and the column sums it completes (row y - spacing). */
 static void summation_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
     const layout *l = c->l;
     const lgmd_plan *q = &p->lgmd[j];
-    const ring *sum = summation_of(k, q, j);
-    int s = l->spacing[j], n = c->n, mid = y - s, columns = q->grouping && mid >= 0;
-    float *column = columns ? row_of(&k->column[j], mid) : NULL;
-    float *above = columns ? row_of(sum, clamp(mid - s, l->height)) : NULL;
-    float *middle = columns ? row_of(sum, mid) : NULL;
+    int s = l->spacing[j], mid = y - s;
     if (y < l->height) {
-        float *now = row_of(sum, y);
-        int fused = columns && mid - s >= 0 && q->kind != SUM_ONE;
-        if (q->kind != SUM_ONE) {
-            const float *on = row_of(&k->part[q->set[ON]], y), *off = row_of(&k->part[q->set[OFF]], y);
-            if (q->kind == SUM_PRODUCT)
-                sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 1);
-            else
-                sum_row(n, q, on, off, now, above, middle, fused ? column : NULL, 0);
+        float *sums = sums_of(k, j, y);
+        channel_rows channels[2];
+        for (int ch = 0; ch < 2; ch++) {
+            channels[ch].excitation = row_of(excitation_of(k, l->reads[j], ch, 0), y);
+            channels[ch].inhibition = q->set[ch] == NO_SET ? NULL : k->inhibition[q->set[ch]];
         }
-        if (columns && !fused) column_row(n, above, middle, now, column);
-        if (!q->grouping) k->total[j] = total_row(l->width, now, k->total[j]);
-        copy_to_tap(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, l, y, now);
-        if (!q->grouping) copy_to_tap(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y, now);
-    } else if (columns) {
-        column_row(n, above, middle, row_of(sum, l->height - 1), column);
+        sum_row(c->n, q, channels, sums);
+        if (!q->grouping) k->total[j] = total_row(l->width, sums, k->total[j]);
+        sums_map(c, p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, y, sums);
+        if (!q->grouping) sums_map(c, p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, y, sums);
     }
-    if (columns) replicate_margins(column, l->width, s);
+    if (!q->grouping || mid < 0) return;
+    float *column = row_of(&k->column[j], mid);
+    column_row(c->n, sums_of(k, j, clamp(mid - s, l->height)), sums_of(k, j, mid), sums_of(k, j, clamp(y, l->height)),
+               column);
+    replicate_margins(column, l->width, s);
+}
+
+/* All of the above at once, for the usual LGMDs away from the borders: LGMD-1 adds up both channels, LGMD-2 hears OFF
+ * only, and OFF is the same for both. */
+static void usual_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const inhibition_set *on = &p->set[0], *off = &p->set[1];
+    int s = on->spacing, mid = y - s, top = mid - s;
+    usual_rows r = {
+        .on = {row_of(excitation_of(k, on->source, ON, 0), y), row_of(excitation_of(k, on->source, ON, 1), y)},
+        .off = {row_of(excitation_of(k, on->source, OFF, 0), y), row_of(excitation_of(k, on->source, OFF, 1), y)},
+        .on_middle = row_of(excitation_of(k, on->source, ON, 0), mid),
+        .off_middle = row_of(excitation_of(k, on->source, OFF, 0), mid),
+        .weighed = row_of(k->weighed, y),
+        .middle = row_of(k->weighed, mid),
+        .above = row_of(k->weighed, top),
+        .sums = row_of(&k->sums, mid),
+        .sums_middle = row_of(&k->sums, top),
+        .sums_above = row_of(&k->sums, top - s),
+        .column = {row_of(&k->column[0], top), row_of(&k->column[1], top)},
+    };
+    if (memcmp(on->own, off->own, sizeof on->own) == 0 && memcmp(on->across, off->across, sizeof on->across) == 0)
+        usual_row_as(c->n, s, on, on, p->lgmd, &r);
+    else
+        usual_row_as(c->n, s, on, off, p->lgmd, &r);
+    for (int j = 0; j < 2; j++) replicate_margins(r.column[j], c->l->width, s);
+}
+
+static int is_usual(const constants *c, const step_plan *p) {
+    const lgmd_plan *a = &p->lgmd[0], *b = &p->lgmd[1];
+    return !p->taps && p->sets == 2 && a->kind == SUM_BOTH && b->kind == SUM_OFF && a->set[ON] == 0 && b->set[OFF] == 1 &&
+           a->grouping && b->grouping && c->l->spacing[0] == c->l->spacing[1];
 }
 
 static float threshold(const lgmd_plan *q, float strongest) {
@@ -209,7 +223,7 @@ static float threshold(const lgmd_plan *q, float strongest) {
 static void grouping_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
     const layout *l = c->l;
     const lgmd_plan *q = &p->lgmd[j];
-    const float *sum = row_of(summation_of(k, q, j), y), *column = row_of(&k->column[j], y);
+    const float *sum = sums_of(k, j, y), *column = row_of(&k->column[j], y);
     int s = l->spacing[j];
     /* a little below, so that rounding on the way to the final threshold loses nothing */
     float limit = 0.999999f * threshold(q, k->strongest[j]);
@@ -218,25 +232,31 @@ static void grouping_row(const constants *c, scratch *k, const step_plan *p, int
     k->listed[j] = (size_t)(g.list - k->list[j]);
     k->strongest[j] = vf_highest(g.strongest);
     float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y);
-    for (int x = 0; map && x < l->width; x++) map[x] = sum[x] * (column[x - s] + column[x] + column[x + s]);
-}
-
-static void lgmd_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
-    int s = c->l->spacing[j], height = c->l->height, summed = y - s, grouped_row = summed - s - SETTLE;
-    if (p->lgmd[j].kind == SUM_NONE) return;
-    if (p->lgmd[j].grouping && grouped_row >= 0 && grouped_row < height) grouping_row(c, k, p, j, grouped_row);
-    if (summed >= 0 && summed < height + s) summation_row(c, k, p, j, summed);
+    for (int x = 0; map && x < l->width; x++)
+        map[x] = sum[x / LANES * LANES * SUMS + x % LANES] * (column[x - s] + column[x] + column[x + s]);
 }
 
 /* Row y of what the LGMDs read is there. */
 static void source_row(const constants *c, scratch *k, const step_plan *p, int source, int y) {
+    const layout *l = c->l;
     if (y < 0) return;
+    for (int j = 0; j < 2; j++) {
+        int grouped_row = y - 2 * l->spacing[j] - SETTLE;
+        if (l->reads[j] == source && p->lgmd[j].kind != SUM_NONE && p->lgmd[j].grouping && grouped_row >= 0 &&
+            grouped_row < l->height)
+            grouping_row(c, k, p, j, grouped_row);
+    }
+    if (k->usual && y >= 3 * l->spacing[0] && y < l->height) {
+        usual_row(c, k, p, y);
+        return;
+    }
     for (int i = 0; i < p->sets; i++)
-        if (p->set[i].source == source && y < c->l->height + p->set[i].spacing) set_row(c, k, &p->set[i], i, y);
-    for (int i = 0; i < p->tap_sets; i++)
-        if (p->tap_set[i].source == source && y < c->l->height + p->tap_set[i].spacing) inhibition_map(c, k, p, i, y);
-    for (int j = 0; j < 2; j++)
-        if (c->l->reads[j] == source) lgmd_row(c, k, p, j, y);
+        if (p->set[i].source == source && y < l->height + p->set[i].spacing) set_row(c, k, p, i, y);
+    for (int j = 0; j < 2; j++) {
+        int summed = y - l->spacing[j];
+        if (l->reads[j] == source && p->lgmd[j].kind != SUM_NONE && summed >= 0 && summed < l->height + l->spacing[j])
+            summation_row(c, k, p, j, summed);
+    }
 }
 
 /* Row y enters; every later layer works on the row that has become possible. What looks along a row comes one push
@@ -254,8 +274,9 @@ static void push_row(const constants *c, scratch *k, const step_plan *p, int y) 
     if (!l->outer_radius && y < height) lamina_row(c, k, p, y);
 }
 
-static void begin(const constants *c, scratch *k) {
+static void begin(const constants *c, scratch *k, const step_plan *p) {
     vd none = {0};
+    k->usual = is_usual(c, p);
     for (int ch = 0; ch < 2; ch++)
         for (int y = 0; y < (int)k->adapted[ch].rows; y++) zero_left(row_of(&k->adapted[ch], y), c->l->margin);
     k->hs = none;
@@ -306,9 +327,8 @@ static void sweep(const layout *l, const float *kernel, float *planes, char *wor
     int lag = l->outer_radius + 2 * spacing + 4 * SETTLE;
     for (int t = 0; t < n; t++) {
         scratch_layout(l, &m, &k[t]);
-        begin(&c, &k[t]);
+        begin(&c, &k[t], &plans[t]);
     }
-    if (plans[0].tap_sets) scratch_taps(l, &m, &k[0]);
     for (int y = 0; y < l->height + lag; y++)
         for (int t = 0; t < n; t++) push_row(&c, &k[t], &plans[t], y);
     for (int t = 0; t < n; t++) finish(&c, &k[t], &plans[t]);
@@ -321,14 +341,7 @@ static size_t scratch_bytes(const layout *l) {
     return m.used;
 }
 
-static size_t tap_bytes(const layout *l) {
-    scratch k;
-    memory m = {NULL, 0};
-    scratch_taps(l, &m, &k);
-    return m.used;
-}
-
 const kernels KERNELS = {
-    ISA_NAME,   isa_runs,   scratch_bytes, tap_bytes, summarise, coverage,     light,
+    ISA_NAME,   isa_runs, scratch_bytes, summarise, coverage,     light,
     light_rest, lit_change, set_luma,      sweep,     in_range,  area_average,
 };

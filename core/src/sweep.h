@@ -18,21 +18,22 @@ typedef struct {
     int type;
 } picture;
 
-/* [g (E - w I)]+ of one channel as two rows of weights on (E, sides of E, E', sides of E'), E' being one step ago and
- * "sides" the sum of the neighbours to the left and right: what a row gives to its own cells, and what it takes from
- * the cells above and below. */
+/* The inhibition I of one channel, as two rows of weights on (E, sides of E, E', sides of E'), E' being one step ago
+ * and "sides" the sum of the neighbours to the left and right: what a row gives to its own cells, and what it takes
+ * from the cells above and below. */
 typedef struct {
     int source, channel, spacing;
     float own[4], across[4];
 } inhibition_set;
 
-enum { SUM_NONE, SUM_ONE, SUM_BOTH, SUM_PRODUCT };
+/* Which channels of an LGMD can speak at all, and how they are added up. */
+enum { SUM_NONE, SUM_ON, SUM_OFF, SUM_BOTH, SUM_PRODUCT };
 
-/* One LGMD: which sets it adds up, how, and how it groups. */
+/* One LGMD: the set, bias and gain of both channels, how they are added up, and how it groups. */
 typedef struct {
     int kind;
-    int set[2];    /* ON, OFF; NO_SET where a channel cannot speak */
-    float gain[3]; /* only for SUM_PRODUCT: elsewhere the sets carry their gains */
+    int set[2]; /* NO_SET where a channel is silent and nobody looks at its inhibition */
+    float bias[2], gain[2], product_gain;
     int grouping;
     double threshold_grey, floor_grey, divisor;
 } lgmd_plan;
@@ -48,9 +49,6 @@ typedef struct {
     int sets;
     inhibition_set set[MAX_SETS];
     lgmd_plan lgmd[2];
-    int tap_sets;
-    inhibition_set tap_set[MAX_SETS];
-    float *tap_set_out[MAX_SETS];
     float *const *taps; /* NULL: none */
     /* Left behind: the net motion, and the sum of each LGMD's grouped cells. */
     double hs, total[2];
@@ -76,7 +74,6 @@ typedef struct {
     const char *name;
     int (*runs)(void);
     size_t (*scratch_bytes)(const layout *l);
-    size_t (*tap_bytes)(const layout *l);
     /* mean, mean of magnitudes, largest magnitude of image - previous */
     change_summary (*summarise)(extent e, picture image, picture previous);
     /* pixels brighter, and darker, by more than half a grey level */
