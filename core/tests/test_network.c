@@ -24,7 +24,7 @@ static void draw(void) {
     }
 }
 
-static void step_through(const lobula_net *net, const film *pictures, lobula_reading *readings) {
+static void step_through(const lobula_net *net, film *pictures, lobula_reading *readings) {
     for (int t = 0; t < FRAMES; t++) {
         lobula_images image = bytes_of((*pictures)[t][0], WIDTH, HEIGHT);
         CHECK(lobula_step(net, &image, times_s[t], 0, &readings[t], NULL) == LOBULA_OK, "a step");
@@ -66,7 +66,7 @@ static void stillness_is_rest(const lobula_params *p) {
     }
 }
 
-static void blocks_are_steps(const lobula_params *p, const film *pictures) {
+static void blocks_are_steps(const lobula_params *p, film *pictures) {
     lobula_reading one[FRAMES], many[FRAMES];
     lobula_net net = network(p, WIDTH, HEIGHT, 16);
     lobula_images images = bytes_of((*pictures)[0][0], WIDTH, HEIGHT);
@@ -84,7 +84,7 @@ static void blocks_are_steps(const lobula_params *p, const film *pictures) {
 /* Two networks share a workspace and take turns; a third is copied half way. */
 static void networks_do_not_meet(const lobula_params *p) {
     lobula_reading alone[2][FRAMES], turns[2][FRAMES], copied;
-    const film *pictures[2] = {&bar, &noise};
+    film *pictures[2] = {&bar, &noise};
     lobula_net net[2] = {network(p, WIDTH, HEIGHT, 1), network(p, WIDTH, HEIGHT, 1)};
     lobula_net shared = {net[1].state, net[0].workspace};
     size_t bytes = lobula_state_size(p, WIDTH, HEIGHT);
