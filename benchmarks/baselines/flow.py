@@ -13,7 +13,7 @@ class DisFlow:
     """Flow from each picture to the next; takes pictures as a network does."""
 
     def __init__(self) -> None:
-        self.flow = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
+        self.flow: Any = cv2.DISOpticalFlow.create(cv2.DISOPTICAL_FLOW_PRESET_ULTRAFAST)
         self.before: NDArray[np.uint8] | None = None
 
     def step(self, image: NDArray[np.uint8], time_s: float) -> Any:

@@ -20,7 +20,7 @@ SIZES = ((99, 72), (320, 240), (640, 480), (1280, 720))
 FRAMES = {(99, 72): 60, (320, 240): 32}
 LARGE_FRAMES = 16
 STREAMS, THREADS = 64, 2
-CLIP_FRAMES = 120
+CLIP_FRAMES = 40
 
 
 def measure(rounds: int = 7) -> dict[str, Any]:
