@@ -7,21 +7,26 @@ import math
 Rows = list[list[float]]
 
 
+def framed(rows: Rows, margin: int) -> Rows:
+    """The picture with its edge pixels repeated outwards."""
+    wide = [[line[0]] * margin + line + [line[-1]] * margin for line in rows]
+    return [wide[0]] * margin + wide + [wide[-1]] * margin
+
+
 def gauss(rows: Rows, radius: int, sigma: float) -> Rows:
     """Weighted mean over the (2 radius + 1) square; a pixel outside counts as the nearest one inside."""
-    height, width = len(rows), len(rows[0])
     around = range(-radius, radius + 1)
-    norm = sum(math.exp(-(dy * dy + dx * dx) / (2 * sigma * sigma)) for dy in around for dx in around)
+    weights = [[math.exp(-(dy * dy + dx * dx) / (2 * sigma * sigma)) for dx in around] for dy in around]
+    norm = sum(map(sum, weights))
+    wide = framed(rows, radius)
     out = []
-    for y in range(height):
+    for y in range(len(rows)):
         line = []
-        for x in range(width):
+        for x in range(len(rows[0])):
             total = 0.0
-            for dy in around:
-                for dx in around:
-                    inside_y = min(max(y + dy, 0), height - 1)
-                    inside_x = min(max(x + dx, 0), width - 1)
-                    total += math.exp(-(dy * dy + dx * dx) / (2 * sigma * sigma)) * rows[inside_y][inside_x]
+            for dy, row in enumerate(weights):
+                for weight, value in zip(row, wide[y + dy][x : x + len(row)], strict=True):
+                    total += weight * value
             line.append(total / norm)
         out.append(line)
     return out

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from .dog import framed
 from .lamina import CLOCK_MS, share
 
 Rows = list[list[float]]
@@ -18,49 +19,47 @@ class Rings(NamedTuple):
     bias: float
 
 
-def around(rows: Rows, y: int, x: int) -> list[tuple[int, float]]:
-    """The 3 x 3 neighbourhood as (ring, value), edge pixels repeated outwards."""
-    height, width = len(rows), len(rows[0])
-    return [
-        (abs(dy) + abs(dx), rows[min(max(y + dy, 0), height - 1)][min(max(x + dx, 0), width - 1)])
-        for dy in (-1, 0, 1) for dx in (-1, 0, 1)
-    ]  # fmt: skip
+def around(wide: Rows, y: int, x: int) -> list[float]:
+    """The 3 x 3 neighbourhood of (y, x) out of the framed picture."""
+    return wide[y][x : x + 3] + wide[y + 1][x : x + 3] + wide[y + 2][x : x + 3]
+
+
+RING = (2, 1, 2, 1, 0, 1, 2, 1, 2)
+"""The ring each of them lies on: 0 the centre, 1 the nearest, 2 the diagonal ones."""
 
 
 def inhibition(now: Rows, before: Rows, rings: Rings) -> Rows:
     """Eq. (1): each neighbour counts with the weight and the delay of its ring."""
+    wide_now, wide_before = framed(now, 1), framed(before, 1)
+    a = [share(tau) for tau in rings.delays_ms]
     out = []
     for y in range(len(now)):
         line = []
         for x in range(len(now[0])):
             total = 0.0
-            for (ring, present), (_, past) in zip(around(now, y, x), around(before, y, x), strict=True):
-                a = share(rings.delays_ms[ring])
-                total += rings.weights[ring] * (a * present + (1 - a) * past)
+            for ring, present, past in zip(RING, around(wide_now, y, x), around(wide_before, y, x), strict=True):
+                total += rings.weights[ring] * (a[ring] * present + (1 - a[ring]) * past)
             line.append(total)
         out.append(line)
     return out
 
 
-def summation(on: tuple[Rows, Rows], off: tuple[Rows, Rows], ring_on: Rings, ring_off: Rings, arousal: float,
-              thetas: tuple[float, float, float]) -> Rows:
-    """Eq. (2) in both channels, each a pair (now, before), and their weighted sum."""
-    i_on, i_off = inhibition(*on, ring_on), inhibition(*off, ring_off)
-    w_on, w_off = max(ring_on.bias, arousal), max(ring_off.bias, arousal)
-    out = []
-    for y in range(len(i_on)):
-        line = []
-        for x in range(len(i_on[0])):
-            s_on = max(on[0][y][x] - w_on * i_on[y][x], 0.0)
-            s_off = max(off[0][y][x] - w_off * i_off[y][x], 0.0)
-            line.append(thetas[0] * s_on + thetas[1] * s_off + thetas[2] * s_on * s_off)
-        out.append(line)
-    return out
+def competition(excitation: Rows, inhibited: Rows, bias: float) -> Rows:
+    """Eq. (2), rectified."""
+    return [[max(e - bias * i, 0.0) for e, i in zip(*lines, strict=True)]
+            for lines in zip(excitation, inhibited, strict=True)]  # fmt: skip
+
+
+def summation(on: Rows, off: Rows, thetas: tuple[float, float, float]) -> Rows:
+    """The weighted sum of both channels and of their product."""
+    return [[thetas[0] * p + thetas[1] * q + thetas[2] * p * q for p, q in zip(*lines, strict=True)]
+            for lines in zip(on, off, strict=True)]  # fmt: skip
 
 
 def grouping(rows: Rows, threshold: float = 30.0, floor: float = 0.01) -> Rows:
     """S times its neighbourhood over the strongest one; small results are dropped."""
-    means = [[sum(v for _, v in around(rows, y, x)) / 9 for x in range(len(rows[0]))] for y in range(len(rows))]
+    wide = framed(rows, 1)
+    means = [[sum(around(wide, y, x)) / 9 for x in range(len(rows[0]))] for y in range(len(rows))]
     omega = floor + max(max(line) for line in means) / 4
     grouped = [[rows[y][x] * means[y][x] / omega for x in range(len(rows[0]))] for y in range(len(rows))]
     return [[g if g >= threshold else 0.0 for g in line] for line in grouped]

@@ -1,4 +1,4 @@
-"""The whole network on steps of the model clock, both base presets; no flash, no turning, no repeats."""
+"""The whole network, step by step, both base presets; no flash, no turning, no repeats."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .decision import Step, decide, spike_count
 from .dog import dog
 from .emd import correlate, potentials
 from .lamina import CLOCK_MS, Rows, fdsr, on_off, share
-from .lgmd import Rings, adaptation, grouping, inhibition, sigmoid, summation
+from .lgmd import Rings, adaptation, competition, grouping, inhibition, sigmoid, summation
 
 SLOW = (60.0, 120.0, 180.0)
 LOW = (1.0, 0.25, 0.125)
@@ -42,14 +42,14 @@ class Wiring:
     k_hs: float
 
 
-WIRINGS = {"published": Wiring(False, 30.0, 0.01, 1.0, 0.01), "paper": Wiring(True, 0.1, 1e-4, 0.004, 0.002)}
+PUBLISHED = Wiring(False, 30.0, 0.01, 1.0, 0.01)
 
 
 @dataclass
 class Oracle:
     """Feed it pictures in order; the maps of the last step lie in ``maps``."""
 
-    preset: str
+    wiring: Wiring = PUBLISHED
     neurons: str = "all"
     warm_up_s: float = 0.2
     history: list[Step] = field(default_factory=list)
@@ -66,7 +66,7 @@ class Oracle:
 
     def step(self, picture: Rows, time_s: float) -> dict[str, float]:
         """Take in the next picture; return the four potentials."""
-        wiring = WIRINGS[self.preset]
+        wiring = self.wiring
         dt_ms = (time_s - self.step_s) * 1000
         ticks = dt_ms / CLOCK_MS
         residual = 0.1**ticks
@@ -83,14 +83,16 @@ class Oracle:
         for name, lgmd in LGMDS.items():
             a = share(lgmd.change_ms)
             arousal = (a * mean_change + (1 - a) * self.mean_change) / 20
-            s = summation(on, off, lgmd.on, lgmd.off, arousal, lgmd.thetas)
+            i_on, i_off = inhibition(*on, lgmd.on), inhibition(*off, lgmd.off)
+            s_on = competition(on[0], i_on, max(lgmd.on.bias, arousal))
+            s_off = competition(off[0], i_off, max(lgmd.off.bias, arousal))
+            s = summation(s_on, s_off, lgmd.thetas)
             g = grouping(s, wiring.threshold, wiring.floor)
             raw = sigmoid(g, wiring.c_sig)
             self.u[name] = adaptation(raw, self.raw[name], self.u[name], dt_ms)
             self.raw[name] = raw
-            self.maps |= {f"{name}_summation": s, f"{name}_grouped": g}
-            self.maps |= {f"{name}_inhibition_on": inhibition(*on, lgmd.on),
-                          f"{name}_inhibition_off": inhibition(*off, lgmd.off)}  # fmt: skip
+            layers = {"inhibition_on": i_on, "inhibition_off": i_off, "summation": s, "grouped": g}
+            self.maps |= {f"{name}_{layer}": rows for layer, rows in layers.items()}
         spans = [max(1, math.floor(d * min(ticks, 4) + 0.5)) for d in (1, 2, 3, 4)]
         motions = [correlate(x, b, spans, [40.0, 30.0, 20.0, 10.0]) for x, b in zip(adapted, self.adapted, strict=True)]
         self.maps["motion"] = [[a + b for a, b in zip(*lines, strict=True)] for lines in zip(*motions, strict=True)]

@@ -86,7 +86,9 @@ def test_agrees_with_the_oracle(seed, p):
     now, before = (OnOff(noise(k, SHAPE), noise(k + 30, SHAPE)) for k in (seed, seed + 60))
     on, off = ((n.tolist(), b.tolist()) for n, b in zip(now, before, strict=True))
     arousal = CLOCK_MS / (CLOCK_MS + p.change_ms) * 12.0 / 20
-    s = slow.summation(on, off, *rings, arousal, (1.0, 1.0, p.product_gain))
+    s_on, s_off = (slow.competition(e[0], slow.inhibition(*e, ring), max(ring.bias, arousal))
+                   for e, ring in zip((on, off), rings, strict=True))  # fmt: skip
+    s = slow.summation(s_on, s_off, (1.0, 1.0, p.product_gain))
     g = slow.grouping(s)
     raw = slow.sigmoid(g)
     lgmd = Lgmd(p, CLOCK_MS)
