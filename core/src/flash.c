@@ -12,6 +12,7 @@ int find_flash(const kernels *k, extent e, picture image, picture previous, cons
 
     double limit = p->trim * about->mean_abs;
     light_sums s = k->light(e, image, previous, limit);
+    if (s.count == 0.0) return 0; /* trim 1, and a change that is everywhere the same but for rounding */
     double new_mean = s.new_sum / s.count, old_mean = s.old_sum / s.count;
     double variance = s.old_old / s.count - old_mean * old_mean;
     double covariance = s.new_old / s.count - new_mean * old_mean;
