@@ -18,7 +18,7 @@ enum { ON, OFF };
 typedef struct {
     int luma, on, off, adapted, change;
     int count;
-} planes;
+} plane_numbers;
 
 /* Everything that follows from the settings and the size alone. Sizes in floats unless they say bytes. */
 typedef struct {
@@ -26,7 +26,7 @@ typedef struct {
     int stride;   /* of a row without margins */
     int margin;   /* left and right of a row that a filter looks along */
     int long_row; /* such a row with its margins */
-    planes planes;
+    plane_numbers planes;
     int inner_radius, outer_radius; /* of the DoG; 0 where it is off */
     int spacing[2];                 /* neighbour_px of each LGMD */
     int reads[2];                   /* source of each LGMD */

@@ -117,7 +117,7 @@ class Network:
             _require_taps(taps)
         if yaw_rate_deg_s is not None and abs(yaw_rate_deg_s) > self.params.decision.turning_deg_s:
             turning = True
-        reading = self._streams[0].step(image, time_s, turning=turning, taps=taps)
+        reading = self._streams[0].step(image, time_s, turning=bool(turning), taps=taps)
         self._last_s[0] = time_s
         self._frames[0] += 1
         return reading

@@ -1,0 +1,1 @@
+"""Tests of the C core and of the public network, each behaviour on both engines."""
