@@ -32,7 +32,7 @@ def test_every_origin_is_explained() -> None:
         if kind in ("published code", "re-implementation"):
             assert f"`{rest.split(',')[0].strip()}`" in _page("sources"), origin
         else:
-            assert kind.split()[0] in ("paper", "chosen", "calibrated", "MODEL.md"), origin
+            assert kind.split()[0] in ("paper", "chosen", "calibrated"), origin
 
 
 def _page(name: str) -> str:

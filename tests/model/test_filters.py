@@ -13,7 +13,7 @@ from .pictures import CLOCK_MS, few
     ("tau_ms", "share"),
     [(15, 0.690), (30, 0.526), (45, 0.426), (60, 0.357), (120, 0.217), (180, 0.156), (1, 0.971)],
 )
-def test_golden_at_the_clock(tau_ms, share):  # MODEL.md 1.2, 1.3: a = 33.3 / (33.3 + tau)
+def test_golden_at_the_clock(tau_ms, share):  # a = 33.3 / (33.3 + tau)
     assert low_pass_share(CLOCK_MS, tau_ms) == pytest.approx(share, abs=5e-4)
 
 

@@ -46,7 +46,7 @@ def test_potentials_stay_in_their_ranges(name):
 
 @PRESETS
 def test_adapted_potentials_never_reach_the_third_spike(name):
-    # SFA holds an LGMD at or below 800 / 833.3 = 0.96: floor(exp(4 * 0.26)) = 2 (MODEL.md 1.6)
+    # SFA holds an LGMD at or below 800 / 833.3 = 0.96: floor(exp(4 * 0.26)) = 2
     readings = run(preset(name), noisy(20), stamps(20))
     assert max(r.lgmd1 for r in readings) <= 0.96 + 1e-12
     assert {spikes for r in readings for spikes in r.spikes[:2]} <= {0, 1, 2}

@@ -1,4 +1,4 @@
-"""The presets: the `published` table of MODEL.md section 0, value by value, and where values come from."""
+"""The presets: the values of the published code, one by one, and where values come from."""
 
 import math
 
@@ -100,7 +100,7 @@ def test_origins_follow_the_preset():
     assert published.lgmd1.spiking.source_of("threshold") == "paper Sec. III"
 
 
-def test_published_shares_give_the_published_ceiling():  # MODEL.md 1.6: 800 / 833.3 = 0.96, so 2 spikes at most
+def test_published_shares_give_the_published_ceiling():  # 800 / 833.3 = 0.96, so 2 spikes at most
     sfa, spiking = preset("published").lgmd1.sfa, preset("published").lgmd1.spiking
     ceiling = sfa.tau_ms / (sfa.tau_ms + 1000 / 30)
     assert ceiling == pytest.approx(0.96)

@@ -1,4 +1,4 @@
-"""Every layer, potential, spike and decision of a tiny movie against the slow network of section 0."""
+"""Every layer, potential, spike and decision of a tiny movie against a slow network."""
 
 import numpy as np
 import pytest

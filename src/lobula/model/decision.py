@@ -35,7 +35,7 @@ class DecisionParams(Params):
         45.0, "deg/s", "a faster yaw is turning: no decision", low=1, high=2000, source="chosen"
     )
     after_turn_ms: float = param(
-        67.0, "ms", "no decision this long after a turn", low=0, high=2000, source="MODEL.md section 0"
+        67.0, "ms", "no decision this long after a turn", low=0, high=2000, source="chosen: two ticks"
     )
 
 
@@ -70,7 +70,7 @@ class Decision:
         Over the last ``window_ms``: A = min(LGMD-1, LGMD-2) spikes, B = LPTC spikes, the larger of the two sides.
         The rule holds while A >= ``collision_spikes`` and A > ``lptc_weight`` B.
 
-        Source: paper Sec. II-E and Algorithm 1; window and count MODEL.md 1.8.
+        Source: paper Sec. II-E and Algorithm 1; window and count from published code (docs/sources.md).
         """
         lptc = max(spikes.lptc_r, spikes.lptc_l)
         self.window.append(Entry(time_s, weight * spikes.lgmd1, weight * spikes.lgmd2, weight * lptc))

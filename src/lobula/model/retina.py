@@ -105,7 +105,7 @@ def frame_difference(image: NDArray[Any], previous: Image, scale: float, light: 
 
     ``scale`` is below 1 for steps longer than the clock, which gather more change.
 
-    Source: paper, Computational Retina Layer; no persistence (MODEL.md 1.1).
+    Source: paper, Computational Retina Layer; no persistence, as in the published code.
     """
     now = image.astype(np.float32, copy=False)
     if light is SAME_LIGHT:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..types import NEURONS, Reading, Spikes, State
 
 REJOIN_S = 0.5
-"""A collision that starts again this soon after its end is the same one, s. Source: MODEL.md section 0."""
+"""A collision that starts again this soon after its end is the same one, s."""
 
 _JITTER_S = 1e-6  # stamps are sums of rounded numbers: 2.7 - 2.2 is not above 0.5
 

@@ -39,9 +39,9 @@ def test_golden_too_far_is_not_seen():
 @pytest.mark.parametrize(
     ("ticks", "spans"),
     [(1.0, (1, 2, 3, 4)), (2.0, (2, 4, 6, 8)), (1.2, (1, 2, 4, 5)), (3.0, (3, 6, 9, 12)), (4.0, (4, 8, 12, 16)),
-     (7.0, (4, 8, 12, 16)), (0.3, (1, 1, 1, 1))],
+     (7.0, (4, 8, 12, 16)), (1.55, (2, 3, 5, 6)), (0.3, (1, 1, 1, 1))],
 )  # fmt: skip
-def test_golden_spans_of_slow_steps(ticks, spans):  # 1.2: 1.2, 2.4, 3.6, 4.8 to the nearest; from 4 on no further
+def test_golden_spans_of_slow_steps(ticks, spans):  # to the nearest pixel; from 4 ticks on no further
     assert stretched((1, 2, 3, 4), ticks) == spans
 
 

@@ -18,7 +18,7 @@ SLOW = InhibitionParams()
 FAST = InhibitionParams(
     centre_weight=2.0, nearest_weight=0.5, diagonal_weight=0.25, centre_ms=15.0, nearest_ms=30.0, diagonal_ms=45.0
 )
-"""The ON channel of LGMD-2 (MODEL.md 1.3)."""
+"""The ON channel of LGMD-2."""
 NOTHING = np.zeros((5, 5), np.float32)
 
 
@@ -112,7 +112,7 @@ def test_competition_only_takes_away(pair, bias):
 @few
 @given(channel)
 def test_fast_inhibition_wins_everywhere(now):
-    """Why LGMD-2 is deaf to brightening: 2 * 0.69 of a cell's own excitation comes back at once (MODEL.md 1.3)."""
+    """Why LGMD-2 is deaf to brightening: 2 * 0.69 of a cell's own excitation comes back at once."""
     i = lateral_inhibition(now, np.zeros_like(now), FAST, 1, CLOCK_MS)
     assert not compete(now, i, FAST.bias + 0.5).any()
 

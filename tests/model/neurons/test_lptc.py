@@ -36,7 +36,7 @@ def test_golden_one_spot_by_hand():
 
 
 def test_golden_threshold_equivalent():
-    # |U| = 0.2 at HS / n = 0.405465 K = 0.00405 (MODEL.md 1.5): 0.145967 over 36 pixels, a spot of sqrt(x / 0.545455)
+    # |U| = 0.2 at HS / n = 0.405465 K = 0.00405: 0.145967 over 36 pixels, a spot of sqrt(x / 0.545455)
     p = LptcParams(emd=EmdParams(spans_px=(1,), delays_ms=(40.0,)))
     for value, spikes in ((0.5171, 0), (0.5175, 1)):  # 0.517305 exactly
         lptc, _ = read(OnOff(spot(SHAPE, 2, 4, value), DARK), OnOff(spot(SHAPE, 2, 3, value), DARK), p)

@@ -55,7 +55,7 @@ def difference_of_gaussians(change: Image, p: DogParams) -> Image:
 
     and 0 where |e| < ``dead_zone_grey``.
 
-    Source: paper Sec. II-B; rule and sizes from published code (MODEL.md 1.2).
+    Source: paper Sec. II-B; rule and sizes from published code (docs/sources.md).
     """
     if not p.enabled:
         return change

@@ -27,7 +27,7 @@ def fdsr(channel: Image, previous: Image, p: FdsrParams, dt_ms: float) -> Image:
     X - D = (1 - a)(X(t) - X(t-1)): a falling channel is silent whatever its time constant, so there is no setting for
     it; a rising one passes its rise, scaled down.
 
-    Source: paper Sec. II-B names the mechanism; form and constants MODEL.md 1.2.
+    Source: paper Sec. II-B names the mechanism; form and constant from Drosmot (docs/sources.md).
     Reading: two taps (the previous input), not a recursive state.
     """
     if not p.enabled:

@@ -25,7 +25,7 @@ def split_on_off(signal: Image, on: Image, off: Image, residual: float) -> tuple
 
         ON = [x]+ + residual * ON(t-1),   OFF = [-x]+ + residual * OFF(t-1)
 
-    Source: paper Sec. II-B; residual from published code (MODEL.md 1.2).
+    Source: paper Sec. II-B; residual from published code (docs/sources.md).
     """
     r, zero = np.float32(residual), np.float32(0)
     return np.maximum(signal, zero) + r * on, np.maximum(-signal, zero) + r * off

@@ -19,7 +19,12 @@ class EmdParams(Params):
     """Every cell meets its right-hand neighbours at several spans, each pair with the delay of its span."""
 
     spans_px: tuple[int, ...] = param(
-        (1, 2, 3, 4), "px", "distances of the paired cells", low=1, high=64, source="chosen (MODEL.md 1.5)"
+        (1, 2, 3, 4),
+        "px",
+        "distances of the paired cells",
+        low=1,
+        high=64,
+        source="chosen: what passes a robot moves 1 to 3 px",
     )
     delays_ms: tuple[float, ...] = param(
         (40.0, 30.0, 20.0, 10.0), "ms", "delay of each span", low=0.1, high=500, source="published code: LPLC2"
@@ -64,7 +69,7 @@ def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: f
     R < 0 for leftward, 0 for a still picture. Pairs lie wholly inside the picture and are booked at X1. In a step of
     several clock ticks things go further: the spans are stretched with it, so the speed they prefer stays.
 
-    Source: paper Eq. (3); spans and delays MODEL.md 1.5.
+    Source: paper Eq. (3); delays from LPLC2 (docs/sources.md).
     Reading: the pure delay of Eq. (3) is the two-tap low-pass of the published code.
     """
     motion = np.zeros_like(channel)

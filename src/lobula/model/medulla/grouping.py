@@ -48,7 +48,7 @@ def group(summation: Image, p: GroupingParams, spacing_px: int) -> Grouped:
 
         Ce = 3 x 3 mean of S,   omega = floor + max(Ce) / divisor,   G = S Ce / omega, zero where G < threshold
 
-    Source: published code (MODEL.md 1.3); not printed in the paper.
+    Source: published code (docs/sources.md); not printed in the paper.
     """
     if not p.enabled:
         return Grouped(summation, float(summation.sum(dtype=np.float64)))

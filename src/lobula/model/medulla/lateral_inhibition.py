@@ -59,7 +59,7 @@ def lateral_inhibition(
     excitation, previous : (H, W) one channel now and one step ago, luminance units, >= 0
     spacing_px : distance of the neighbours
 
-    Source: paper Eq. (1); rings and delays from published code (MODEL.md 1.3).
+    Source: paper Eq. (1); rings and delays from published code (docs/sources.md).
     """
     weights = (p.centre_weight, p.nearest_weight, p.diagonal_weight)
     shares = tuple(low_pass_share(dt_ms, tau) for tau in (p.centre_ms, p.nearest_ms, p.diagonal_ms))

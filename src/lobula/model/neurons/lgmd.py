@@ -27,7 +27,7 @@ class LgmdParams(Params):
 
     reads: str = param(
         "change", "", "the layer that excites it: the retina's change or the lamina's adapted channels",
-        choices=("change", "lamina"), source="MODEL.md A1",
+        choices=("change", "lamina"), source="published code: NewLGMDs",
     )  # fmt: skip
     on: InhibitionParams = field(default_factory=InhibitionParams)
     off: InhibitionParams = field(default_factory=InhibitionParams)

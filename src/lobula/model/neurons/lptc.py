@@ -42,7 +42,7 @@ class Lptc:
 
             V = 2 / (1 + exp(-|HS| / (n K_hs))) - 1;   rightward = V if HS > 0;   leftward = -V if HS < 0
 
-        Source: paper Sec. II-D gives the ranges; form and K_hs MODEL.md 1.5.
+        Source: paper Sec. II-D gives the ranges; form and K_hs from Drosmot (docs/sources.md).
         """
         on, off = (emd(x, x_before, self.p.emd, self.clock_ms, ticks) for x, x_before in zip(now, before, strict=True))
         hs = on.total + off.total

@@ -26,7 +26,7 @@ def adapt(raw: float, raw_before: float, potential: float, p: SfaParams, dt_ms: 
 
         dK <= growth:  a (U(t-1) + dK)     otherwise:  a K(t);     a = tau / (tau + dt), floor 0.5
 
-    Source: published code (MODEL.md 1.6); in both LGMD papers the paper cites, not printed in it.
+    Source: published code (docs/sources.md); in both LGMD papers the paper cites, not printed in it.
     """
     if not p.enabled:
         return raw
