@@ -53,27 +53,44 @@ typedef struct {
     float *list; /* its end */
 } grouped;
 
-INLINE grouped group_vector(vf sum, vf around, vf least, grouped g) {
-    vf product = sum * around;
+/* One LGMD's row: S, sums of three cells of a column, and what passes so far. */
+typedef struct {
+    const float *sum, *column;
+    int spacing;
+    vf least;
+} grouping_rows;
+
+/* S times the sum of its neighbourhood, nine times too large, for the cells `inside` the picture. */
+INLINE grouped group_vector(const grouping_rows *r, int x, vm inside, int partial, grouped g) {
+    const float *column = r->column + x;
+    vf around = vf_load(column - r->spacing) + vf_load(column) + vf_load(column + r->spacing);
+    if (partial) around = vf_keep(inside, around);
+    vf product = vf_load(r->sum + x * SUMS) * around;
     g.strongest = vf_max(g.strongest, around);
     vf_store(g.list, product);
-    g.list += (unsigned)vm_any(vf_ge(product, least)) * LANES;
+    g.list += (unsigned)vm_any(vf_ge(product, r->least)) * LANES;
     return g;
 }
 
-/* S times the sum of its neighbourhood, nine times too large; `limit` is what passes so far. */
-INLINE grouped group_row(int width, int s, const float *sum, const float *column, float limit, grouped g) {
+static grouped group_row(int width, const grouping_rows *rows, grouped g) {
+    grouping_rows r = *rows;
     int whole = width / LANES * LANES;
-    vf least = vf_all(limit);
-    for (int x = 0; x < whole; x += LANES)
-        g = group_vector(vf_load(sum + x * SUMS), vf_load(column + x - s) + vf_load(column + x) + vf_load(column + x + s),
-                         least, g);
-    if (whole < width) {
-        const float *last = column + whole;
-        vf around = vf_load(last - s) + vf_load(last) + vf_load(last + s);
-        g = group_vector(vf_load(sum + whole * SUMS), vf_keep(vm_first(width - whole), around), least, g);
+    vm inside = vm_first(width - whole);
+    for (int x = 0; x < whole; x += LANES) g = group_vector(&r, x, inside, 0, g);
+    return whole < width ? group_vector(&r, whole, inside, 1, g) : g;
+}
+
+static void group_row_of_both(int width, const grouping_rows *rows, grouped *both) {
+    grouping_rows r = rows[0], q = rows[1];
+    grouped g = both[0], h = both[1];
+    int whole = width / LANES * LANES;
+    vm inside = vm_first(width - whole);
+    for (int x = 0; x < whole; x += LANES) {
+        g = group_vector(&r, x, inside, 0, g);
+        h = group_vector(&q, x, inside, 0, h);
     }
-    return g;
+    both[0] = whole < width ? group_vector(&r, whole, inside, 1, g) : g;
+    both[1] = whole < width ? group_vector(&q, whole, inside, 1, h) : h;
 }
 
 INLINE vd total_row(int width, const float *sum, vd total) {

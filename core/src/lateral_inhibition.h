@@ -30,8 +30,8 @@ INLINE ring_weights weights_of(const inhibition_set *q) {
 INLINE weighed weigh(const ring_weights *w, const float *now, const float *before, int s) {
     vf e = vf_load(now), sides = vf_load(now - s) + vf_load(now + s);
     vf b = vf_load(before), sides_before = vf_load(before - s) + vf_load(before + s);
-    weighed r = {w->own[0] * e + w->own[1] * sides + (w->own[2] * b + w->own[3] * sides_before),
-                 w->across[0] * e + w->across[1] * sides + (w->across[2] * b + w->across[3] * sides_before)};
+    weighed r = {w->own[0] * e + w->own[1] * sides + w->own[2] * b + w->own[3] * sides_before,
+                 w->across[0] * e + w->across[1] * sides + w->across[2] * b + w->across[3] * sides_before};
     return r;
 }
 

@@ -24,8 +24,13 @@ size_t lobula_workspace_size(const lobula_params *p, int width, int height, int 
 }
 
 int lobula_block_frames(const lobula_params *p, int width, int height) {
-    const size_t cache = (size_t)2 << 20; /* a processor's own, not the one it shares */
-    return lobula_state_size(p, width, height) > cache ? 8 : 1;
+    /* A processor's own cache, not the one it shares: the state should not need to leave it, or else the rows at work
+     * of all frames should fit it beside the state's present ones. */
+    const size_t cache = (size_t)2 << 20;
+    layout l;
+    if (!p || layout_init(&l, p, width, height) != LOBULA_OK || l.state_bytes <= cache) return 1;
+    size_t frames = cache / 2 / kernels_of(0)->row_bytes(&l);
+    return frames < 1 ? 1 : frames > 8 ? 8 : (int)frames;
 }
 
 /* model.lamina.dog.gaussian_kernel, from the centre outwards */

@@ -72,9 +72,9 @@ static void plan_lgmd(const lobula_state *s, step_plan *p, int j, double arousal
     }
     lgmd->product_gain = (float)q->product_gain;
     lgmd->grouping = q->grouping.enabled != 0.0;
+    lgmd->omega_floor = 9.0 * q->grouping.floor_grey;
+    lgmd->omega_share = 1.0 / q->grouping.divisor;
     lgmd->threshold_grey = q->grouping.threshold_grey;
-    lgmd->floor_grey = q->grouping.floor_grey;
-    lgmd->divisor = q->grouping.divisor;
 }
 
 static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double mean_change, double clock_ms) {

@@ -74,23 +74,29 @@ INLINE void add_change(row_change *r, vf change) {
     r->highest = vf_max(r->highest, magnitude);
 }
 
+enum { EXACT_SUM = 256 }; /* changes that are added up in float before they join a double */
+
 /* model.retina.change_statistics, less the counts */
 INLINE change_summary summarise_as(extent e, picture image, int type, picture previous, int type_before) {
+    const row_change nothing = {vf_all(0.0f), vf_all(0.0f), vf_all(0.0f)};
     vd sum = {0}, magnitude = {0};
-    vf highest = vf_all(0.0f);
-    int whole = e.width / LANES * LANES;
+    row_change r = nothing;
+    int whole = e.width / LANES * LANES, added = 0;
     for (int y = 0; y < e.height; y++) {
         const char *now = picture_row(&image, y), *before = picture_row(&previous, y);
-        row_change r = {vf_all(0.0f), vf_all(0.0f), highest};
         for (int x = 0; x < whole; x += LANES) add_change(&r, pixels_at(now, type, x) - pixels_at(before, type_before, x));
         if (whole < e.width)
             add_change(&r, last_pixels(now, type, whole, e.width) - last_pixels(before, type_before, whole, e.width));
-        vd_add(&sum, r.sum);
-        vd_add(&magnitude, r.magnitude);
-        highest = r.highest;
+        added += e.width;
+        if (added > EXACT_SUM * LANES - e.width || y == e.height - 1) {
+            vd_add(&sum, r.sum);
+            vd_add(&magnitude, r.magnitude);
+            r.sum = r.magnitude = nothing.sum;
+            added = 0;
+        }
     }
     double pixels = (double)e.width * (double)e.height;
-    change_summary s = {vd_total(&sum) / pixels, vd_total(&magnitude) / pixels, (double)vf_highest(highest)};
+    change_summary s = {vd_total(&sum) / pixels, vd_total(&magnitude) / pixels, (double)vf_highest(r.highest)};
     return s;
 }
 

@@ -34,7 +34,7 @@ typedef struct {
     ring column[2]; /* three rows of the summation, added up */
     float *list[2]; /* vectors of grouped cells that may reach the threshold */
     size_t listed[2];
-    int usual; /* whether usual.h can do the LGMDs */
+    enum { UNUSUAL, USUAL, ALIKE } usual; /* whether usual.h can do the LGMDs */
     float strongest[2]; /* largest 3 x 3 sum so far */
     vd hs;
     vd total[2];
@@ -81,6 +81,8 @@ static inline ring take_long(memory *m, const layout *l, int rows) { return take
 
 static inline ring take_short(memory *m, const layout *l, int rows) { return take_ring(m, rows, l->stride, 0); }
 
+static inline size_t list_floats(const layout *l) { return (size_t)l->height * (size_t)l->stride + ROW_FLOATS; }
+
 /* The rows of one frame at work. */
 static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     int lgmds_read_lamina = l->reads[0] == ADAPTED || l->reads[1] == ADAPTED;
@@ -98,7 +100,7 @@ static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     s->sums = take_ring(m, l->ring, 2 * l->stride, 0);
     for (int j = 0; j < 2; j++) {
         s->column[j] = take_long(m, l, 2);
-        s->list[j] = take(m, (size_t)l->height * (size_t)l->stride + ROW_FLOATS);
+        s->list[j] = take(m, list_floats(l));
     }
 }
 

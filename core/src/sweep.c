@@ -203,37 +203,62 @@ static void usual_row(const constants *c, scratch *k, const step_plan *p, int y)
         .sums_above = row_of(&k->sums, top - s),
         .column = {row_of(&k->column[0], top), row_of(&k->column[1], top)},
     };
-    if (memcmp(on->own, off->own, sizeof on->own) == 0 && memcmp(on->across, off->across, sizeof on->across) == 0)
+    if (k->usual == ALIKE)
         usual_row_as(c->n, s, on, on, p->lgmd, &r);
     else
         usual_row_as(c->n, s, on, off, p->lgmd, &r);
     for (int j = 0; j < 2; j++) replicate_margins(r.column[j], c->l->width, s);
 }
 
-static int is_usual(const constants *c, const step_plan *p) {
+/* Whether usual_row can do it, and with the same weights for both channels. */
+static int what_is_usual(const constants *c, const step_plan *p) {
     const lgmd_plan *a = &p->lgmd[0], *b = &p->lgmd[1];
-    return !p->taps && p->sets == 2 && a->kind == SUM_BOTH && b->kind == SUM_OFF && a->set[ON] == 0 && b->set[OFF] == 1 &&
-           a->grouping && b->grouping && c->l->spacing[0] == c->l->spacing[1];
+    const inhibition_set *on = &p->set[0], *off = &p->set[1];
+    int can = !p->taps && p->sets == 2 && a->kind == SUM_BOTH && b->kind == SUM_OFF && a->set[ON] == 0 && b->set[OFF] == 1 &&
+              a->grouping && b->grouping && c->l->spacing[0] == c->l->spacing[1];
+    if (!can) return UNUSUAL;
+    return memcmp(on->own, off->own, sizeof on->own) == 0 && memcmp(on->across, off->across, sizeof on->across) == 0
+               ? ALIKE
+               : USUAL;
+}
+
+static double omega(const lgmd_plan *q, float strongest) {
+    return q->omega_floor + q->omega_share * (double)strongest;
 }
 
 static float threshold(const lgmd_plan *q, float strongest) {
-    return (float)(9.0 * q->threshold_grey * (q->floor_grey + (double)strongest / (9.0 * q->divisor)));
+    return (float)(q->threshold_grey * omega(q, strongest));
+}
+
+static grouping_rows rows_to_group(const constants *c, const scratch *k, const step_plan *p, int j, int y) {
+    /* a little below, so that rounding on the way to the final threshold loses nothing */
+    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j],
+                       vf_all(0.999999f * threshold(&p->lgmd[j], k->strongest[j]))};
+    return r;
+}
+
+static void keep_grouped(const constants *c, scratch *k, const step_plan *p, int j, int y, const grouping_rows *r,
+                         grouped g) {
+    k->listed[j] = (size_t)(g.list - k->list[j]);
+    k->strongest[j] = vf_highest(g.strongest);
+    float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, y);
+    for (int x = 0; map && x < c->l->width; x++)
+        map[x] = r->sum[x / LANES * LANES * SUMS + x % LANES] *
+                 (r->column[x - r->spacing] + r->column[x] + r->column[x + r->spacing]);
 }
 
 static void grouping_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
-    const layout *l = c->l;
-    const lgmd_plan *q = &p->lgmd[j];
-    const float *sum = sums_of(k, j, y), *column = row_of(&k->column[j], y);
-    int s = l->spacing[j];
-    /* a little below, so that rounding on the way to the final threshold loses nothing */
-    float limit = 0.999999f * threshold(q, k->strongest[j]);
+    grouping_rows r = rows_to_group(c, k, p, j, y);
     grouped g = {vf_all(k->strongest[j]), k->list[j] + k->listed[j]};
-    g = group_row(l->width, s, sum, column, limit, g);
-    k->listed[j] = (size_t)(g.list - k->list[j]);
-    k->strongest[j] = vf_highest(g.strongest);
-    float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, l, y);
-    for (int x = 0; map && x < l->width; x++)
-        map[x] = sum[x / LANES * LANES * SUMS + x % LANES] * (column[x - s] + column[x] + column[x + s]);
+    keep_grouped(c, k, p, j, y, &r, group_row(c->l->width, &r, g));
+}
+
+static void grouping_row_of_both(const constants *c, scratch *k, const step_plan *p, int y) {
+    grouping_rows r[2] = {rows_to_group(c, k, p, 0, y), rows_to_group(c, k, p, 1, y)};
+    grouped g[2] = {{vf_all(k->strongest[0]), k->list[0] + k->listed[0]},
+                    {vf_all(k->strongest[1]), k->list[1] + k->listed[1]}};
+    group_row_of_both(c->l->width, r, g);
+    for (int j = 0; j < 2; j++) keep_grouped(c, k, p, j, y, &r[j], g[j]);
 }
 
 /* Row y of what the LGMDs read is there. */
@@ -241,12 +266,15 @@ static void source_row(const constants *c, scratch *k, const step_plan *p, int s
     const layout *l = c->l;
     if (y < 0) return;
     for (int j = 0; j < 2; j++) {
-        int grouped_row = y - 2 * l->spacing[j] - SETTLE;
-        if (l->reads[j] == source && p->lgmd[j].kind != SUM_NONE && p->lgmd[j].grouping && grouped_row >= 0 &&
-            grouped_row < l->height)
-            grouping_row(c, k, p, j, grouped_row);
+        int row = y - 2 * l->spacing[j] - SETTLE;
+        if (l->reads[j] != source || p->lgmd[j].kind == SUM_NONE || !p->lgmd[j].grouping || row < 0 || row >= l->height)
+            continue;
+        if (k->usual != UNUSUAL && j == 0)
+            grouping_row_of_both(c, k, p, row);
+        else if (k->usual == UNUSUAL)
+            grouping_row(c, k, p, j, row);
     }
-    if (k->usual && y >= 3 * l->spacing[0] && y < l->height) {
+    if (k->usual != UNUSUAL && y >= 3 * l->spacing[0] && y < l->height) {
         usual_row(c, k, p, y);
         return;
     }
@@ -276,7 +304,7 @@ static void push_row(const constants *c, scratch *k, const step_plan *p, int y) 
 
 static void begin(const constants *c, scratch *k, const step_plan *p) {
     vd none = {0};
-    k->usual = is_usual(c, p);
+    k->usual = what_is_usual(c, p);
     for (int ch = 0; ch < 2; ch++)
         for (int y = 0; y < (int)k->adapted[ch].rows; y++) zero_left(row_of(&k->adapted[ch], y), c->l->margin);
     k->hs = none;
@@ -293,8 +321,8 @@ static void finish(const constants *c, scratch *k, step_plan *p) {
     for (int j = 0; j < 2; j++) {
         const lgmd_plan *q = &p->lgmd[j];
         float least = threshold(q, k->strongest[j]);
-        double omega = q->floor_grey + (double)k->strongest[j] / (9.0 * q->divisor);
-        p->total[j] = q->grouping ? total_of_list(k->list[j], k->list[j] + k->listed[j], least) / (9.0 * omega)
+        double nine_omega = omega(q, k->strongest[j]);
+        p->total[j] = q->grouping ? total_of_list(k->list[j], k->list[j] + k->listed[j], least) / nine_omega
                                   : vd_total(&k->total[j]);
         float *sum = tap_row(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, c->l, 0);
         float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, 0);
@@ -302,7 +330,7 @@ static void finish(const constants *c, scratch *k, step_plan *p) {
             if (sum) memset(sum, 0, pixels * sizeof(float));
             if (map) memset(map, 0, pixels * sizeof(float));
         } else if (map && q->grouping) {
-            for (size_t i = 0; i < pixels; i++) map[i] = map[i] >= least ? map[i] / (float)(9.0 * omega) : 0.0f;
+            for (size_t i = 0; i < pixels; i++) map[i] = map[i] >= least ? map[i] / (float)nine_omega : 0.0f;
         }
     }
 }
@@ -341,7 +369,9 @@ static size_t scratch_bytes(const layout *l) {
     return m.used;
 }
 
+static size_t row_bytes(const layout *l) { return scratch_bytes(l) - 2 * list_floats(l) * sizeof(float); }
+
 const kernels KERNELS = {
-    ISA_NAME,   isa_runs, scratch_bytes, summarise, coverage,     light,
-    light_rest, lit_change, set_luma,      sweep,     in_range,  area_average,
+    ISA_NAME, isa_runs,   scratch_bytes, row_bytes, summarise, coverage,
+    light,    light_rest, lit_change,    set_luma,  sweep,     in_range, area_average,
 };

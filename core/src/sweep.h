@@ -35,7 +35,8 @@ typedef struct {
     int set[2]; /* NO_SET where a channel is silent and nobody looks at its inhibition */
     float bias[2], gain[2], product_gain;
     int grouping;
-    double threshold_grey, floor_grey, divisor;
+    /* With m the largest sum of 3 x 3 cells: nine times omega, and what nine times S Ce must reach. */
+    double omega_floor, omega_share, threshold_grey;
 } lgmd_plan;
 
 /* Everything known about one step before its rows are looked at. */
@@ -73,7 +74,8 @@ struct resize_plan;
 typedef struct {
     const char *name;
     int (*runs)(void);
-    size_t (*scratch_bytes)(const layout *l);
+    size_t (*scratch_bytes)(const layout *l); /* of one frame at work, */
+    size_t (*row_bytes)(const layout *l);     /* and without the lists, which are seldom long */
     /* mean, mean of magnitudes, largest magnitude of image - previous */
     change_summary (*summarise)(extent e, picture image, picture previous);
     /* pixels brighter, and darker, by more than half a grey level */
