@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 Map = NDArray[np.float32]
 CLOCK_MS = 1000.0 / 30.0
 
-few = settings(max_examples=25, deadline=None, derandomize=True)
-"""The same 25 examples in every run: a test that fails today fails tomorrow."""
+few = settings(max_examples=20, deadline=None, derandomize=True)
+"""The same 20 examples in every run: a test that fails today fails tomorrow."""
 
 shapes = mutually_broadcastable_shapes(num_shapes=1, min_dims=2, max_dims=2, min_side=3, max_side=7).map(
     lambda s: s.input_shapes[0]
@@ -20,7 +20,8 @@ shapes = mutually_broadcastable_shapes(num_shapes=1, min_dims=2, max_dims=2, min
 
 
 def _maps(low: float, count: int) -> st.SearchStrategy[tuple[Map, ...]]:
-    values = st.floats(low, 255, width=32, allow_subnormal=False)
+    # light finer than a thousandth of a grey level only tests where float32 ends
+    values = st.floats(low, 255, width=32).map(lambda v: v if abs(v) > 1e-3 else 0.0)
     return shapes.flatmap(lambda shape: st.tuples(*[arrays(np.float32, shape, elements=values)] * count))
 
 
