@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from ..model.network import TAPS, NetworkParams
 from ..model.state import NUMBERS, PLANES, TIMES, StateDict, check_state
 from ..types import NEURONS, STATES, TRACE_DTYPE, Image, Reading, Spikes
-from .library import available, isa_index, library
+from .library import isa_index, library
 from .structures import Images, Net, Scalars, core_params
 
 ALIGN = 64
-TYPES = {np.dtype(np.uint8): 0, np.dtype(np.float32): 1}
+UINT8, FLOAT32 = np.dtype(np.uint8), np.dtype(np.float32)
+TYPES = {UINT8: 0, FLOAT32: 1}
 COPIED_BYTES = 1 << 18
 """Up to this size a picture is copied to a fixed place: cheaper than asking NumPy where it lies."""
 
@@ -83,6 +84,15 @@ class CoreNetwork:
         """Return to before the first frame."""
         self._core.lobula_reset(self._state.address)
 
+    def in_range(self, image: NDArray[np.float32]) -> bool:
+        """Whether all of ``image`` (H, W) lies in 0..255, told in one quick look; a doubtful case says no."""
+        height, width = self.shape
+        if self._copied:
+            self._stages[FLOAT32][...] = image
+            return bool(self._core.lobula_in_range(self._refs[FLOAT32], width, height))
+        image, pictures = _images(image[None])
+        return bool(self._core.lobula_in_range(ctypes.byref(pictures), width, height))
+
     def step(self, image: NDArray[Any], time_s: float, *, turning: bool = False, taps: Collection[str] = ()) -> Reading:
         """Advance by one frame. ``turning`` says that the camera itself turns: nothing is decided meanwhile."""
         dtype = image.dtype
@@ -92,8 +102,8 @@ class CoreNetwork:
         else:
             image, pictures = _images(image[None])
             at = ctypes.byref(pictures)
-        maps = {name: np.empty(self.shape, np.float32) for name in taps}
-        pointers = _pointers(maps) if maps else None
+        maps = {name: np.empty(self.shape, np.float32) for name in taps} if taps else {}
+        pointers = _pointers(maps) if taps else None
         status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
         if status:
             raise RuntimeError(f"the C core failed with code {status}")
@@ -165,15 +175,6 @@ class CoreNetwork:
         window = np.ascontiguousarray(state["window"], np.float64)
         window = window[-self._core.lobula_window_capacity(self._state.address) :]
         self._core.lobula_set_window(self._state.address, window.ctypes.data, len(window))
-
-
-def in_range(image: Any) -> bool:
-    """Whether ``image`` is a float32 array (H, W) in 0..255, told in one quick look; a doubtful case says no."""
-    if type(image) is not np.ndarray or image.dtype != np.float32 or image.strides[-1] != 4 or not available():
-        return False
-    height, width = image.shape
-    where = Images(pixels=image.ctypes.data, row_bytes=image.strides[0], type=TYPES[image.dtype])
-    return bool(library().lobula_in_range(ctypes.byref(where), width, height))
 
 
 def _images(images: NDArray[Any]) -> tuple[NDArray[Any], Images]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Collection, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from numbers import Real
 from typing import Any, Literal
 
 import numpy as np
@@ -17,12 +19,11 @@ from ..model.presets import preset
 from ..model.scaling import scaled
 from ..model.state import StateDict
 from ..types import NEURONS, TRACE_DTYPE, Frame, Reading
-from .core import CoreNetwork, Workspace, in_range
+from .core import FLOAT32, UINT8, CoreNetwork, Workspace
 from .library import available, library, why_not
 
 Engine = Literal["auto", "core", "reference"]
 ENGINES: tuple[Engine, ...] = ("auto", "core", "reference")
-UINT8 = np.dtype(np.uint8)
 
 
 def chosen_engine(engine: str) -> Literal["core", "reference"]:
@@ -62,6 +63,9 @@ class Network:
     def __init__(
         self, params: NetworkParams | None = None, *, engine: str = "auto", scale_kernels: bool = False
     ) -> None:
+        if not isinstance(params, NetworkParams | None):
+            raise ParameterError(f"Network: params = {params!r}: must be NetworkParams, such as "
+                                 'lobula.preset("paper")')
         self.params = preset() if params is None else params
         self.scale_kernels = scale_kernels
         self.engine = chosen_engine(engine)
@@ -97,7 +101,7 @@ class Network:
         ------
         ShapeError : an image that the network does not read, or of another size than the first
         TimeError : a time that does not increase
-        ParameterError : an unknown tap
+        ParameterError : an unknown tap, or a yaw rate that is no finite number
         """
         if isinstance(image, Frame):
             time_s, image = image.time_s, image.image
@@ -115,8 +119,10 @@ class Network:
             time_s = require_later(time_s, last_s, "Network.step")
         if taps:
             _require_taps(taps)
-        if yaw_rate_deg_s is not None and abs(yaw_rate_deg_s) > self.params.decision.turning_deg_s:
-            turning = True
+        if yaw_rate_deg_s is not None:
+            if not (isinstance(yaw_rate_deg_s, Real) and math.isfinite(yaw_rate_deg_s)):
+                raise ParameterError(f"Network.step: yaw_rate_deg_s = {yaw_rate_deg_s!r}: must be a finite number")
+            turning = turning or abs(yaw_rate_deg_s) > self.params.decision.turning_deg_s
         reading = self._streams[0].step(image, time_s, turning=bool(turning), taps=taps)
         self._last_s[0] = time_s
         self._frames[0] += 1
@@ -207,8 +213,10 @@ class Network:
 
     def _checked(self, given: NDArray[Any]) -> NDArray[Any]:
         shape = self.shape
-        if shape is not None and np.shape(given) == shape and in_range(given):
-            return given
+        if type(given) is np.ndarray and given.dtype == FLOAT32 and given.shape == shape and len(self._streams) == 1:
+            stream = self._streams[0]
+            if isinstance(stream, CoreNetwork) and stream.in_range(given):
+                return given
         image = require_images(given, (2,), "Network.step")
         if shape is None:
             require_not_unit_range(image, "Network.step")
