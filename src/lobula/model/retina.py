@@ -84,6 +84,8 @@ def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p:
     new, old = image.astype(np.float64), previous.astype(np.float64)
     # What moves in front of the lit scene changes most; leave it out of the fit.
     lit = np.abs(new - old) <= p.trim * about.mean_abs
+    if not lit.any():  # a trim of 1 and an even change: rounding leaves nothing
+        return None
     new, old = new[lit], old[lit]
     new_mean, old_mean = new.mean(), old.mean()
     variance = float((old * old).mean() - old_mean * old_mean)
