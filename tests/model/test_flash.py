@@ -16,7 +16,7 @@ FLASHES = (
     {"offset_grey": -35.0, "lasts_s": 0.15},
 )  # fmt: skip
 """Lamp on, lamp off, a short pulse of light and one of darkness; none clips the scene or changes its contrast."""
-MOMENTS = (-6, -3, -1, 0, 2, 5)
+MOMENTS = (-6, -2, 0, 3)
 """Frames from the first alarm."""
 
 

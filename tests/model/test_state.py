@@ -32,7 +32,7 @@ def test_continues_from_any_frame(name):
     whole = run(preset(name), IMAGES, TIMES, TURNING)
     assert {r.state for r in whole} == {"warming_up", "ok", "turning", "flash"}
     assert any(r.collision for r in whole)
-    for count in range(0, len(IMAGES), 2):
+    for count in range(0, len(IMAGES), 3):
         other = ReferenceNetwork(preset(name), SHAPE)
         other.load_state_dict(after(count, name).state_dict())
         rest = run(other, IMAGES[count:], TIMES[count:], TURNING[count:])
