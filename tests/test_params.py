@@ -147,12 +147,14 @@ def test_origins():
     [
         ({"counts": 4}, "unknown setting counts: did you mean count?"),
         ({"inner": {"sigma": 4}}, "unknown setting inner.sigma: did you mean sigma_px?"),
+        ({"en": 4}, "unknown setting en: did you mean enabled?"),
+        ({"inner": {"sigma_px": "abc"}}, "inner.sigma_px = 'abc': must be float in [0.5, 8] px"),
         ({"zzz": 4}, "unknown setting zzz: known here are count, enabled, reads, inner"),
         ({"origins": {}}, "unknown setting origins"),
         ({"inner": 4}, "inner = 4: is a group of settings, such as inner.sigma_px"),
-        ({"count": {"a": 1}}, "Outer.count = {'a': 1}: must be int in [1, 10]"),
-        ({"inner": {"sigma_px": math.nan}}, "Inner.sigma_px = nan: must be float in [0.5, 8] px"),
-        ({"inner": {"spans_px": [1, 99]}}, "Inner.spans_px = (1, 99): must be int in [1, 9] px"),
+        ({"count": {"a": 1}}, "count = {'a': 1}: must be int in [1, 10]"),
+        ({"inner": {"sigma_px": math.nan}}, "inner.sigma_px = nan: must be float in [0.5, 8] px"),
+        ({"inner": {"spans_px": [1, 99]}}, "inner.spans_px = (1, 99): must be int in [1, 9] px"),
     ],
 )
 def test_settings_that_do_not_exist_or_do_not_fit(given, message):
@@ -188,7 +190,7 @@ def test_parse_refuses(bad):
 
 
 def test_parsed_nan_is_refused_where_it_lands():
-    with pytest.raises(ParameterError, match=r"Inner\.sigma_px = nan"):
+    with pytest.raises(ParameterError, match=r"^inner\.sigma_px = nan"):
         with_settings(Outer(), parse_setting("inner.sigma_px=NaN"), "--set")
 
 
