@@ -160,3 +160,9 @@ def test_errors_are_values_errors_and_our_own():
     for error in (ShapeError, TimeError):
         assert issubclass(error, ValueError)
         assert issubclass(error, LobulaError)
+
+
+@pytest.mark.parametrize("bad", ["a", [1.0, 2.0], {}])
+def test_a_time_that_is_no_number(bad):
+    with pytest.raises(TimeError, match="must be a number of seconds"):
+        require_later(bad, None, HERE)

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import math
+import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pytest
 
 import lobula
+from lobula.errors import LobulaError
 
 NAMES = ["Frame", "LobulaError", "Network", "NetworkParams", "Reading", "Spikes", "__version__", "open", "preset",
          "stimuli"]  # fmt: skip
@@ -50,3 +55,20 @@ def test_the_lines_of_the_contract(tmp_path):
         alarms = [frame.time_s for frame in frames if other.step(frame).collision]
     assert alarms
     assert alarms[0] < movie.contact_s
+
+
+@pytest.mark.parametrize("params", ["paper", "foo", 3, {"decision": {}}])
+def test_a_network_of_something_else_than_settings_is_refused_at_once(params: Any) -> None:
+    with pytest.raises(LobulaError, match=re.escape('must be NetworkParams, such as lobula.preset("paper")')):
+        lobula.Network(params)
+
+
+@pytest.mark.parametrize("rate", [math.nan, math.inf, "fast"])
+def test_a_yaw_rate_that_is_no_finite_number_is_refused(rate: Any) -> None:
+    with pytest.raises(LobulaError, match=r"yaw_rate_deg_s = .*: must be a finite number"):
+        lobula.Network().step(np.zeros((72, 99), np.uint8), 0.0, yaw_rate_deg_s=rate)
+
+
+def test_a_time_that_is_text_is_refused() -> None:
+    with pytest.raises(LobulaError, match="time 'a': must be a number of seconds"):
+        lobula.Network().step(np.zeros((72, 99), np.uint8), "a")  # type: ignore[arg-type]  # what is tested

@@ -65,9 +65,12 @@ def require_later(time_s: float, previous_s: float | None, where: str) -> float:
 
     Raises
     ------
-    TimeError : the stamp stands still, runs backwards or is not finite
+    TimeError : the stamp stands still, runs backwards or is no finite number
     """
-    t = float(time_s)
+    try:
+        t = float(time_s)
+    except (TypeError, ValueError) as error:
+        raise TimeError(f"{where}: time {time_s!r}: must be a number of seconds") from error
     if not math.isfinite(t):
         raise TimeError(f"{where}: time {t!r} s: must be finite")
     if previous_s is not None and t <= previous_s:

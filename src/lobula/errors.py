@@ -34,3 +34,8 @@ class OutputError(LobulaError, OSError):
 
 class MissingExtraError(LobulaError, ImportError):
     """A feature whose optional dependency is not installed; the message holds the pip command."""
+
+
+def pip_install(extra: str) -> str:
+    """Return the commands that install an extra of lobula: from an index, and from a clone."""
+    return f'pip install "lobula[{extra}]" (from a clone: pip install ".[{extra}]")'

@@ -10,7 +10,7 @@ import difflib
 import hashlib
 import json
 import typing
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from numbers import Integral, Real
 from typing import Any
@@ -109,7 +109,7 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
     origins = dict(params.origins)
     for name, value in settings.items():
         if name not in known:
-            raise ParameterError(f"unknown setting {where}{name}{_nearest(name, known)}")
+            raise ParameterError(f"unknown setting {where}{name}{nearest(name, known)}")
         current = getattr(params, name)
         if is_dataclass(current):
             if not isinstance(value, Mapping):
@@ -119,6 +119,7 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
             changed[name] = with_settings(typing.cast(Params, current), value, source, f"{where}{name}.")
         else:
             changed[name] = _coerce(value, current)
+            _check(f"{where}{name}", changed[name], known[name].default, known[name].metadata)
             origins[name] = source
     return replace(params, origins=origins, **changed)
 
@@ -155,6 +156,9 @@ def _coerce(value: Any, current: Any) -> Any:
     return value
 
 
-def _nearest(name: str, known: Mapping[str, Any]) -> str:
-    close = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
+def nearest(name: str, known: Iterable[str]) -> str:
+    """Return the end of a message about an unknown ``name``: the known one nearest to it, or all of them."""
+    known = list(known)
+    longer = [other for other in known if name and other.startswith(name)]
+    close = longer or difflib.get_close_matches(name, known, n=1, cutoff=0.5)
     return f": did you mean {close[0]}?" if close else f": known here are {', '.join(known)}"

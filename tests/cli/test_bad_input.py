@@ -76,9 +76,8 @@ def test_a_wrong_request(call, clip, tmp_path, arguments, says):
     assert done.err.startswith("lobula: ")
     assert done.err.count("\n") == 1
     assert says in done.err
-    (summary,) = [r for r in done.records if r["type"] == "summary"]  # one, even now
-    assert summary["status"] == "refused"
-    assert done.records[-1] == summary
+    (summary,) = done.records  # one, even now, and no header
+    assert (summary["type"], summary["status"]) == ("summary", "refused")
     assert summary["problems"] == [done.err.removeprefix("lobula: ").strip()]
 
 
@@ -171,3 +170,12 @@ def test_a_pipe_that_holds_nothing(spawn):
     assert process.returncode == 2
     assert err.startswith("lobula: -: not a stream that FFmpeg recognises")
     assert json.loads(out)["status"] == "refused"
+
+
+def test_a_pattern_without_quotes(call):
+    assert 'quote a pattern, as in "shots/*.png"' in call("run", "a.png", "b.png", "c.png").err
+
+
+def test_an_empty_file_is_called_that(call, tmp_path):
+    (tmp_path / "empty.mp4").write_bytes(b"")
+    assert call("run", "empty.mp4").err == "lobula: empty.mp4: is empty: must be a file that FFmpeg decodes\n"

@@ -71,7 +71,7 @@ def test_without_json_standard_output_is_empty_and_people_are_told(call, clip):
     done = call("run", clip)
     assert (done.code, done.out) == (0, "")
     assert "COLLISION 1" in done.err
-    assert "ok: 91 frames, 1 collisions" in done.err
+    assert "ok: 91 frames, 1 collision," in done.err
 
 
 def test_all_outputs_at_once(call, clip, tmp_path):

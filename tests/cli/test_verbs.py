@@ -11,6 +11,7 @@ import pytest
 import lobula
 from lobula.cli import doctor
 from lobula.engine import library
+from lobula.types import TRACE_DTYPE
 
 
 class TestDemo:
@@ -84,6 +85,7 @@ class TestStimulus:
             ([], "no name: must be one of looming,"),
             (["loming"], "stimulus 'loming': must be one of"),
             (["looming", "--set", "sped_cm_s=8"], "unknown setting sped_cm_s: did you mean speed_cm_s?"),
+            (["looming", "--set", "speed=12"], "unknown setting speed: did you mean speed_cm_s?"),
             (["looming", "--set", "speed_cm_s"], "must be NAME=VALUE"),
             (["looming", "--set", "speed_cm_s=-8"], "speed_cm_s = -8"),
             (["looming", "--out", "clip.avi"], "must end in .mp4, .mkv or .npz"),
@@ -110,7 +112,11 @@ class TestPlotAndExplain:
 
     def test_wrong_traces(self, call, tmp_path):
         (tmp_path / "t.csv").write_text("a,b\n1,2\n")
-        assert "lacks frame" in call("plot", "t.csv").err
+        assert call("plot", "t.csv").err.count("spikes_lptc_r") == 1
+        (tmp_path / "e.csv").write_text("")
+        assert call("plot", "e.csv").err == "lobula: trace e.csv: is empty\n"
+        (tmp_path / "e.csv").write_text(",".join(TRACE_DTYPE.names) + "\n")
+        assert call("plot", "e.csv").err == "lobula: trace e.csv: has no rows: nothing to draw\n"
         assert call("plot", "none.csv").code == 2
 
     def test_the_alarm_is_explained(self, call, clip):
@@ -130,6 +136,7 @@ class TestPlotAndExplain:
         assert done.code == 0
         assert done.out.startswith("frame 30 at 1.000 s, state ok\nno collision: ")
         assert "lgmd2_grouped" in done.out
+        assert "A speaks for a collision" in done.out
         assert (tmp_path / "maps.png").read_bytes().startswith(b"\x89PNG")
 
     def test_a_moment_outside(self, call, clip):
@@ -149,7 +156,8 @@ class TestDoctor:
     def test_what_is_missing_comes_with_its_command(self, call, monkeypatch):
         monkeypatch.setattr(doctor, "find_spec", lambda module: None)
         missing = call("doctor", "--json").document["missing"]
-        assert 'traces in .parquet: pip install "lobula[parquet]"' in missing
+        command = 'pip install "lobula[parquet]" (from a clone: pip install ".[parquet]")'
+        assert f"traces in .parquet: {command}" in missing
 
     def test_no_core(self, call, monkeypatch):
         monkeypatch.setattr(library, "available", lambda: False)

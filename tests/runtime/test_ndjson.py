@@ -28,6 +28,15 @@ def test_one_line_for_each_record_and_none_for_frames():
     assert "settings" not in records[0]
 
 
+def test_a_refused_request_has_a_summary_alone_and_every_other_end_a_header_too():
+    for status, types in (("refused", ["summary"]), ("interrupted", ["header", "summary"])):
+        out = io.StringIO()
+        sink = NdjsonSink(out)
+        sink.open(HEADER)
+        sink.close({"type": "summary", "status": status})
+        assert [json.loads(line)["type"] for line in out.getvalue().splitlines()] == types
+
+
 class Broken(io.StringIO):
     def __init__(self, error):
         super().__init__()

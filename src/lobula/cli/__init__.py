@@ -55,6 +55,7 @@ def help_text() -> str:
         "Watches one camera and says, in time, that something is going to hit it.\n\n"
         f"Verbs:\n{lines}\n\n"
         "`lobula VERB --help` says what a verb takes; every verb has --json. `lobula --version` says which this is.\n"
-        "Exit codes: 0 done; 2 the request or its input was wrong; 3 the source or an output failed on the way;\n"
-        "4 some files failed; 130 or 143 interrupted."
+        "Exit codes: 0 done; 1 demo did not see what it must, or a fault of lobula's own; 2 the request or its input\n"
+        "was wrong; 3 the source or an output failed on the way; 4 evaluate could not score some clips;\n"
+        "130 or 143 interrupted."
     )

@@ -51,6 +51,8 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         return _complain(f"interrupted ({stop})", stop.exit_code)
     except _ParserError as error:
         message = cast(Any, error).format_message().rstrip(".")
+        if "unexpected extra argument" in message and verb in ("run", "explain"):
+            message += "; one SOURCE is read: quote a pattern, as in \"shots/*.png\""
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)
 
 

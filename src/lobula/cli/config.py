@@ -56,6 +56,7 @@ def init(
     """Write a settings file with every setting of a preset, its unit, range, meaning and origin beside it."""
     from ..params import settings_hash
     from ..runtime.header import setting_rows
+    from .destinations import check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
@@ -65,6 +66,7 @@ def init(
     text = settings_toml(setting_rows(chosen.params), chosen.preset)
     if file.suffix.lower() != ".toml":
         raise ParameterError(f"settings file {file}: must end in .toml")
+    check_files({"settings file": file})
     try:
         with file.open("w" if force else "x", encoding="utf-8") as out:
             out.write(text)

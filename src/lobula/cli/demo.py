@@ -55,10 +55,12 @@ def demo(
     """
     from ..engine.network import Network
     from ..stimuli import CATALOGUE
+    from .destinations import check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
 
+    check_files({"--out": out}, {"settings file": config})
     params = choose(preset, neurons, config, settings or (), sensitivity).params
     network = Network(params, engine=engine)
     durations_s: list[float] = []

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._version import __version__
+from ..errors import pip_install
 from . import options as o
 from .call import new_app
 
@@ -43,13 +44,13 @@ def examine() -> dict[str, Any]:
     missing = []
     engine = _engine()
     if engine["engine"] != "core":
-        missing.append(f"the C core ({engine['why_not']}): install a C compiler, then pip install --force-reinstall "
-                       "--no-deps lobula; until then the NumPy reference runs")
+        missing.append(f"the C core ({engine['why_not']}): install a C compiler, then, in the clone, `pip install "
+                       "--force-reinstall --no-deps .`; until then the NumPy reference runs")
     codecs = _codecs()
     if not codecs.get("h264_encoder"):
         missing.append("an H.264 encoder, needed by --annotate and lobula stimulus: pip install --force-reinstall av")
     extras = {name: all(find_spec(module) for module in modules) for name, (modules, _) in EXTRAS.items()}
-    missing += [f'{EXTRAS[name][1]}: pip install "lobula[{name}]"' for name, there in extras.items() if not there]
+    missing += [f"{EXTRAS[name][1]}: {pip_install(name)}" for name, there in extras.items() if not there]
     return {
         "lobula": __version__,
         "python": platform.python_version(),

@@ -44,10 +44,12 @@ def explain(
     from ..model.scaling import scaled
     from ..runtime.explanation import explain as explain_frame
     from ..runtime.opening import open as open_frames
+    from .destinations import check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
 
+    check_files({"--out": out}, {"source": source, "mask": mask, "settings file": config})
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     view = o.view(size, fit, roi, mask, flip, rotate)
     params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
@@ -99,7 +101,9 @@ def _text(e: Explanation) -> str:
     spikes = [(f"{w.time_s:.3f}", f"{w.lgmd1:.2f}", f"{w.lgmd2:.2f}", f"{w.lptc:.2f}") for w in e.window]
     spikes.append(("sum", "", f"A = {e.lgmd:.2f}", f"B = {e.lptc:.2f}"))
     parts.append("spikes the decision looks back on, weighted by the length of their step\n" + table(
-        ("time_s", "LGMD-1", "LGMD-2", "LPTC"), spikes, right="time_s LGMD-1 LGMD-2 LPTC"))
+        ("time_s", "LGMD-1", "LGMD-2", "LPTC"), spikes, right="time_s LGMD-1 LGMD-2 LPTC")
+        + "\nA speaks for a collision: the spikes of the LGMD that gave fewer, or of LGMD-2 where it decides alone"
+        + "\nB speaks for something that passes: the spikes of the LPTCs, in each step of the side that gave more")
     layers = [(name, f"{layer.mean:.4g}", f"{layer.peak:.4g}") for name, layer in e.layers.items()]
     parts.append(table(("layer", "mean", "largest"), layers, right="mean largest"))
     return "\n\n".join(parts)

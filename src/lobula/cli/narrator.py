@@ -7,6 +7,7 @@ from typing import Any
 
 from ..runtime.sinks import Picture
 from ..types import Reading
+from .counted import counted
 from .progress import Say
 
 
@@ -41,8 +42,11 @@ class Narrator:
                       f"{record['peak_frame']}")
 
     def close(self, summary: Mapping[str, Any]) -> None:
-        """Say how it ended."""
-        text = f"{summary['status'].replace('_', ' ')}: {summary['frames']} frames, {summary['collisions']} collisions"
+        """Say how it ended; of a run that looked at nothing the reason says it all."""
+        if not summary["frames"]:
+            return
+        text = (f"{summary['status'].replace('_', ' ')}: {counted(summary['frames'], 'frame')}, "
+                f"{counted(summary['collisions'], 'collision')}")
         if summary["dropped"]:
             text += f", {summary['dropped']} dropped"
         if summary["damaged"]:

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from ..errors import ParameterError
 from . import options as o
 from .call import new_app
 
@@ -24,14 +25,20 @@ def plot(
     from ..report.plots import plot_trace, save_figure
     from ..report.trace_file import read_about, read_trace
     from ..runtime.events import collisions_of
+    from .counted import counted
+    from .destinations import check_files
     from .print_json import print_json
     from .progress import say
 
+    figure_path = out or trace.with_suffix(".png")
+    check_files({"--out": figure_path}, {"trace": trace})
     rows = read_trace(trace)
+    if len(rows) == 0:
+        raise ParameterError(f"trace {trace}: has no rows: nothing to draw")
     figure = plot_trace(rows, {"source": trace.name, **read_about(trace)})
-    path = save_figure(figure, out or trace.with_suffix(".png"))
+    path = save_figure(figure, figure_path)
     collisions = [{"id": c.id, "frame": c.start_frame, "time_s": c.start_s} for c in collisions_of(rows)]
     if json:
         print_json({"trace": str(trace), "figure": str(path), "frames": len(rows), "collisions": collisions})
     else:
-        say(f"{path}: {len(rows)} frames, {len(collisions)} collisions")
+        say(f"{path}: {counted(len(rows), 'frame')}, {counted(len(collisions), 'collision')}")

@@ -62,6 +62,7 @@ def run(
     from ..runtime.loop import unbegun_summary
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.opening import open as open_frames
+    from .destinations import check_files, check_folder
     from .settings import choose
 
     try:
@@ -69,6 +70,11 @@ def run(
         view = o.view(size, fit, roi, mask, flip, rotate)
         params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
         network = Network(params, engine=engine)
+        outputs = {"--trace": trace, "--annotate": annotate}
+        if report is not None:
+            check_folder("--report", report)
+            outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
+        check_files(outputs, {"source": source, "mask": mask, "settings file": config}, made=report)
         files = _file_sinks(trace, annotate, report)
         frames = open_frames(
             source, **view, start_s=start, end_s=end, stride=stride,

@@ -33,6 +33,7 @@ def stimulus(
 ) -> None:
     """Write a synthetic movie as a clip, and beside it a .json with what is true of it: kind, contact, settings."""
     from ..stimuli import CATALOGUE, keywords
+    from .counted import counted
     from .print_json import print_json
     from .progress import say
     from .table import table
@@ -48,24 +49,35 @@ def stimulus(
         rows = [(keyword, "" if value is None else js.dumps(value)) for keyword, value in known.items()]
         print_json(_finite(known)) if json else print(table(("setting", "default"), rows))
         return
-    movie = CATALOGUE[name](**_chosen(settings or (), known, name))
     path = out or Path(f"{name}.mp4")
+    _check_out(path)
+    movie = CATALOGUE[name](**_chosen(settings or (), known, name))
     truth_path = _write(movie, path)
     if json:
         print_json({"clip": str(path), "truth": str(truth_path), **_truth(movie)})
     else:
         contact = "nothing comes" if movie.contact_s is None else f"contact at {movie.contact_s:.3f} s"
-        say(f"{path}: {movie.kind}, {len(movie)} frames at {movie.rate_hz:g} Hz, {contact}; truth in {truth_path}")
+        frames = counted(len(movie), "frame")
+        say(f"{path}: {movie.kind}, {frames} at {movie.rate_hz:g} Hz, {contact}; truth in {truth_path}")
+
+
+def _check_out(path: Path) -> None:
+    from .destinations import check_files, check_folder
+
+    if path.suffix:
+        check_files({"--out": path, "the truth of --out": path.with_suffix(".json")})
+    else:
+        check_folder("--out", path)
 
 
 def _first_line(make: Any) -> str:
     """The first sentence of a movie's docstring; a kind made by fixing a keyword is described by its function's."""
-    text = (getattr(make, "func", make).__doc__ or "").partition("\n")[0].removeprefix("Return ")
-    return text.rstrip(".").replace("``", "")
+    line = (getattr(make, "func", make).__doc__ or "").partition("\n")[0]
+    return line.partition(". ")[0].removeprefix("Return ").rstrip(".").replace("``", "")
 
 
 def _chosen(settings: Any, known: dict[str, Any], name: str) -> dict[str, Any]:
-    from difflib import get_close_matches
+    from ..params import nearest
 
     chosen = {}
     for text in settings:
@@ -73,9 +85,7 @@ def _chosen(settings: Any, known: dict[str, Any], name: str) -> dict[str, Any]:
         if not equals or not raw:
             raise ParameterError(f"--set {text!r}: must be NAME=VALUE, such as speed_cm_s=8")
         if keyword not in known:
-            close = get_close_matches(keyword, known, n=1, cutoff=0.5)
-            hint = f"did you mean {close[0]}?" if close else f"known are {', '.join(known)}"
-            raise ParameterError(f"stimulus {name}: unknown setting {keyword}: {hint}")
+            raise ParameterError(f"stimulus {name}: unknown setting {keyword}{nearest(keyword, known)}")
         try:
             chosen[keyword] = js.loads(raw)
         except js.JSONDecodeError:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import MissingExtraError, ParameterError
+from ..errors import MissingExtraError, ParameterError, pip_install
 from ..types import NEURONS, Frame, Neuron
 from .landing import whole_file
 from .palette import LABELS, LIGHT, STATE_LABELS, thresholds
@@ -104,7 +104,7 @@ def _figure(width: float, height: float) -> Figure:
     try:
         module = importlib.import_module("matplotlib.figure")
     except ImportError as error:
-        raise MissingExtraError('plots need matplotlib: pip install "lobula[plot]"') from error
+        raise MissingExtraError(f"plots need matplotlib: {pip_install('plot')}") from error
     figure: Figure = module.Figure(figsize=(width, height), layout="constrained")  # no pyplot: no window, no registry
     return figure
 
@@ -124,7 +124,9 @@ def _draw_column(
     for axes, neurons, (low, high) in ((lgmds, _LGMDS, (0.48, 1.02)), (lptcs, _LPTCS, (-1.05, 1.05))):
         for neuron in neurons:
             time_s, potential = thinned(trace["time_s"], trace[neuron])
-            axes.plot(time_s, potential, color=LIGHT.neurons[neuron], linewidth=1.5, label=LABELS[neuron])
+            style = (0, (3, 2)) if neuron == "lgmd2" else "-"  # both LGMDs are seen where they are the same
+            axes.plot(time_s, potential, color=LIGHT.neurons[neuron], linewidth=1.5, linestyle=style,
+                      label=LABELS[neuron])
         for number, level in enumerate(sorted({levels[neuron] for neuron in neurons})):
             axes.axhline(level, color=LIGHT.dim, linewidth=0.9, linestyle=(0, (5, 3)),
                          label="_" if number else "threshold")

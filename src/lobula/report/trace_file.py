@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import FrameSourceError, MissingExtraError, ParameterError
+from ..errors import FrameSourceError, MissingExtraError, ParameterError, pip_install
 from ..types import STATES, TRACE_DTYPE
 
 COLUMNS: tuple[str, ...] = TRACE_DTYPE.names or ()
@@ -79,12 +79,14 @@ def pyarrow_parquet() -> Any:
     try:
         importlib.import_module("pyarrow.parquet")
     except ImportError as error:
-        raise MissingExtraError('a .parquet trace needs pyarrow: pip install "lobula[parquet]"') from error
+        raise MissingExtraError(f"a .parquet trace needs pyarrow: {pip_install('parquet')}") from error
     return importlib.import_module("pyarrow")
 
 
 def _read_csv(path: Path) -> tuple[NDArray[np.void], dict[str, Any]]:
     header, _, text = _text(path).partition("\n")
+    if not header and not text:
+        raise FrameSourceError(f"trace {path}: is empty")
     names = next(csv.reader([header]), [])
     _require_columns(path, names)
 
@@ -154,4 +156,5 @@ def _from_columns(columns: Any) -> NDArray[np.void]:
 def _require_columns(path: Path, names: Iterable[str]) -> None:
     missing = [name for name in COLUMNS if name not in names]
     if missing:
-        raise FrameSourceError(f"trace {path}: lacks {', '.join(missing)}: a trace has {','.join(COLUMNS)}")
+        raise FrameSourceError(f"trace {path}: lacks {', '.join(missing)}: must be a trace as `lobula run --trace` "
+                               "writes it")

@@ -21,6 +21,8 @@ class ReaderGoneError(OutputError):
 class NdjsonSink:
     """Writes header, events and summary to ``stream``.
 
+    The header is written with the first frame, so that a request which is refused before has a summary alone.
+
     Raises
     ------
     ReaderGoneError : from any call, when the reader has closed its end
@@ -30,21 +32,31 @@ class NdjsonSink:
     def __init__(self, stream: TextIO, name: str = "standard output") -> None:
         self._stream = stream
         self._name = name
+        self._header: Mapping[str, Any] | None = None  # until it is written
 
     def open(self, header: Mapping[str, Any]) -> None:
-        """Write the header record."""
-        self._write({key: header[key] for key in HEADER_KEYS if key in header})
+        """Keep the header record for the first frame."""
+        self._header = {key: header[key] for key in HEADER_KEYS if key in header}
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
-        """Do nothing: frames are the trace's business."""
+        """Write the header record if this is the first one; frames are the trace's business."""
+        self._begin()
 
     def event(self, record: Mapping[str, Any]) -> None:
         """Write one state or collision record."""
+        self._begin()
         self._write(record)
 
     def close(self, summary: Mapping[str, Any]) -> None:
         """Write the summary record."""
+        if summary.get("status") != "refused":
+            self._begin()
         self._write(summary)
+
+    def _begin(self) -> None:
+        header, self._header = self._header, None
+        if header is not None:
+            self._write(header)
 
     def _write(self, record: Mapping[str, Any]) -> None:
         try:
