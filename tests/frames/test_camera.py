@@ -55,5 +55,5 @@ def test_other_systems_are_named(monkeypatch):
 
 
 def test_times_are_not_for_cameras():
-    with pytest.raises(ParameterError, match="times_s: 0 is of kind camera"):
+    with pytest.raises(ParameterError, match="times_s: 0 is a camera"):
         lobula.frames.open(0, times_s=[0.0])

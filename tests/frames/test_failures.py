@@ -35,7 +35,7 @@ def test_missing_file(tmp_path):
     assert refusal(tmp_path / "none.mp4") == f"{tmp_path}/none.mp4: no such file or folder"
 
 
-@pytest.mark.parametrize("content", [b"", b"not a video\n" * 50, bytes(range(256)) * 40])
+@pytest.mark.parametrize("content", [b"not a video\n" * 50, bytes(range(256)) * 40])
 @pytest.mark.parametrize("name", ["a.mp4", "a.txt", "a"])
 def test_not_a_video(tmp_path, name, content):
     (tmp_path / name).write_bytes(content)

@@ -112,7 +112,7 @@ def test_start_is_not_read_from_disk(tmp_path):
         ("file,time_s\na.png,1\nb.png,0.5\n", "line 3: time runs backwards: 0.500000 s after 1.000000 s"),
         ("file,time_s\nz.png,1\n", "line 2: no file 'z.png' in the folder"),
         ("file,time_s\n", "no rows: must name at least one image"),
-        ("", "columns None"),
+        ("", "is empty"),
     ],
 )
 def test_times_file_that_does_not_fit(tmp_path, text, message):
@@ -140,6 +140,7 @@ def test_damaged_images(tmp_path):
     assert [f.index for f in got] == [1, 3]
     np.testing.assert_allclose([f.time_s for f in got], [0.1, 0.3])
     assert frames.damaged == 2
+    assert frames.notes == [f"{tmp_path / name}: damaged or not an image: left out" for name in ("0.png", "2.png")]
     (tmp_path / "3.png").write_text("damaged")
     with pytest.raises(FrameSourceError, match=r"3\.png: damaged") as caught:
         read(tmp_path)

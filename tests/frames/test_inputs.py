@@ -58,7 +58,7 @@ def test_missing_file():
         ({"timeout_s": 0}, "timeout_s = 0"),
         ({"input_size": (640,)}, "input_size"),
         ({"input_size": (640, 0)}, "input_size"),
-        ({"pixel_format": "gray8"}, "pixel_format: array is of kind array: may only be given for pipe, camera"),
+        ({"pixel_format": "gray8"}, "pixel_format: the source is an array: may be given only for a pipe, a camera"),
     ],
 )
 def test_refuses_options(options, message):
@@ -67,5 +67,5 @@ def test_refuses_options(options, message):
 
 
 def test_times_belong_to_arrays(tmp_path):
-    with pytest.raises(ParameterError, match=r"times_s: .* is of kind folder: may only be given for array"):
+    with pytest.raises(ParameterError, match=r"times_s: .* is a folder: may be given only for an array"):
         lobula.frames.open(tmp_path, times_s=[0.0])

@@ -59,6 +59,20 @@ def test_padding_is_not_part_of_the_mask():
     np.testing.assert_array_equal(ignored(mask, view, 80, 40), expected)
 
 
+@pytest.mark.parametrize(("shape", "region"), [((100, 100), None), ((72, 128), None), ((72, 99), (0, 0, 90, 40))])
+def test_a_mask_of_another_shape_is_refused(shape, region):
+    _, _, width, height = region or (0, 0, 198, 144)
+    message = rf"{shape[1]} x {shape[0]} px over a picture of {width} x {height}: must have the same shape"
+    with pytest.raises(ParameterError, match=message):
+        ignored(mask_with((slice(0, 9), slice(0, 9)), shape), View(roi=region), 198, 144)
+
+
+def test_a_mask_may_be_rounded_to_whole_pixels():
+    """1920 x 1080 at a twentieth is 96 x 54; at a thirteenth 147.7 x 83.1."""
+    for shape in ((54, 96), (83, 148), (83, 147), (84, 148)):
+        assert not ignored(np.full(shape, 255, np.uint8), View(), 1920, 1080).any()
+
+
 def test_masked_pixels_never_change(tmp_path):
     path = tmp_path / "mask.png"
     path.write_bytes(image_bytes(mask_with((slice(60, 72), slice(None)))))

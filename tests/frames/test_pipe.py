@@ -63,7 +63,7 @@ def test_odd_sizes():
 def test_last_picture_cut_short_is_noted():
     got, frames = read(PICTURES.tobytes()[:-100], "gray8")
     assert len(got) == 4
-    assert frames.notes == ["-: the last picture is cut short: left out"]
+    assert frames.notes == ["-: the last picture is cut short: left out; check input_size (--input-size)"]
     assert frames.damaged == 0
 
 

@@ -17,6 +17,8 @@ from .stills import read_still
 IMAGE_ENDINGS = (".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff", ".pgm", ".ppm", ".webp")
 TIMES_FILE = "times.csv"
 DEFAULT_RATE_HZ = 30.0
+MOST_NAMED = 20
+"""Damaged files that are named; the others are counted."""
 
 
 def natural_order(path: Path) -> list[tuple[int, int, str]]:
@@ -84,7 +86,8 @@ class FolderReader:
                 break
         else:
             raise FrameSourceError(f"{name}: none of its {len(files)} files is an image that FFmpeg decodes")
-        self.damaged = self._first_index
+        for path in files[: self._first_index]:
+            self._leave_out(path)
         self.rotation = round(-self.first.rotation / 90) * 90 % 360
 
     def pictures(self, start_s: float | None = None) -> Iterator[Picture]:
@@ -103,11 +106,18 @@ class FolderReader:
                 continue
             data = read_still(path)
             if data is None:
-                self.damaged += 1
+                self._leave_out(path)
             else:
                 yield Picture(data, time_s, i)
         if data is None:
             raise FrameSourceError(f"{self._files[-1]}: damaged or not an image", on_the_way=True)
+
+    def _leave_out(self, path: Path) -> None:
+        self.damaged += 1
+        if self.damaged <= MOST_NAMED:
+            self.notes.append(f"{path}: damaged or not an image: left out")
+        elif self.damaged == MOST_NAMED + 1:
+            self.notes.append(f"{self.name}: more such files are counted without their names")
 
     def close(self) -> None:
         """Nothing is held open."""
@@ -119,6 +129,8 @@ def _read_times(times_file: Path) -> tuple[list[Path], list[float]]:
     try:
         with times_file.open(newline="", encoding="utf-8-sig") as text:
             rows = csv.DictReader(text)
+            if rows.fieldnames is None:
+                raise FrameSourceError(f"{times_file}: is empty: must hold the columns file and time_s")
             if not {"file", "time_s"} <= set(rows.fieldnames or ()):
                 raise FrameSourceError(f"{times_file}: columns {rows.fieldnames}: must hold file and time_s")
             for row in rows:

@@ -30,6 +30,8 @@ _TAKES: dict[Kind, tuple[str, ...]] = {
     "array": ("rate_hz", "times_s"),
 }
 
+_A: dict[Kind, str] = {kind: f"{'an' if kind in ('address', 'array') else 'a'} {kind}" for kind in _TAKES}
+
 
 @dataclass(frozen=True, kw_only=True)
 class InputOptions:
@@ -65,8 +67,8 @@ class InputOptions:
         """
         for name in ("rate_hz", "times_s", "pixel_format", "input_size"):
             if getattr(self, name) is not None and name not in _TAKES[kind]:
-                fit = ", ".join(k for k, names in _TAKES.items() if name in names)
-                raise ParameterError(f"{name}: {source} is of kind {kind}: may only be given for {fit}")
+                fit = ", ".join(_A[k] for k, names in _TAKES.items() if name in names)
+                raise ParameterError(f"{name}: {source} is {_A[kind]}: may be given only for {fit}")
 
 
 def open_reader(source: Any, options: InputOptions) -> tuple[Reader, bool]:
@@ -78,7 +80,7 @@ def open_reader(source: Any, options: InputOptions) -> tuple[Reader, bool]:
     FrameSourceError : it cannot be opened
     """
     kind, where = kind_of_source(source)
-    options.require_belonging(kind, "array" if kind == "array" else source)
+    options.require_belonging(kind, "the source" if kind == "array" else source)
     if kind == "array":
         return _array(source, options), False
     if kind == "address":

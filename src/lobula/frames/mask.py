@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..errors import FrameSourceError, ParameterError
 from .geometry import Layout
 from .luma import Luma
-from .resize import coverage
+from .resize import Rect, coverage
 
 _WHITE = 128
 _TOUCHED = 1e-3  # a share of a working pixel below which the cover is rounding, not a mask
@@ -28,7 +28,7 @@ def ignored_pixels(
     Raises
     ------
     FrameSourceError : the mask cannot be read
-    ParameterError : the mask is not a grey (H, W) array, or leaves nothing
+    ParameterError : the mask is not a grey (H, W) array, has another shape than the picture, or leaves nothing
     """
     where = "mask" if isinstance(mask, np.ndarray) else f"mask {mask}"
     image = mask if isinstance(mask, np.ndarray) else _read(mask)
@@ -38,6 +38,8 @@ def ignored_pixels(
     region, seen, place = layout.region, layout.seen, layout.place
     if keep.shape == (layout.height, layout.width):
         keep = keep[region.y : region.y + region.height, region.x : region.x + region.width]
+    else:
+        _require_shape(keep.shape, region, where)
     across, down = keep.shape[1] / region.width, keep.shape[0] / region.height
     rows = coverage(keep.shape[0], (seen.y - region.y) * down, seen.height * down, place.height)
     columns = coverage(keep.shape[1], (seen.x - region.x) * across, seen.width * across, place.width)
@@ -47,6 +49,14 @@ def ignored_pixels(
     if inner.all():
         raise ParameterError(f"{where}: ignores the whole picture: must be white where the picture counts")
     return ignored
+
+
+def _require_shape(shape: tuple[int, ...], region: Rect, where: str) -> None:
+    """Refuse a mask that is not the region at some scale, each side rounded by less than a pixel."""
+    height, width = shape
+    if abs(width * region.height - height * region.width) > region.width + region.height:
+        raise ParameterError(f"{where}: {width} x {height} px over a picture of {region.width} x {region.height}: must "
+                             "have the same shape, at any scale")
 
 
 def _read(path: str | PathLike[str]) -> NDArray[Any]:

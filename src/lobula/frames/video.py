@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from os import PathLike, fspath
+from pathlib import Path
 from typing import Any
 
 import av
@@ -44,6 +45,8 @@ def open_file(path: str | PathLike[str], threads: int = 1, rate_hz: float | None
     FrameSourceError : it is not a video, or holds no picture
     """
     name = fspath(path)
+    if Path(name).is_file() and not Path(name).stat().st_size:
+        raise FrameSourceError(f"{name}: is empty: must be a file that FFmpeg decodes")
     allowed = "not a video: must be a file that FFmpeg decodes, not cut off before its index"
     # "file:" keeps a ":" in the name from being read as a protocol
     return VideoReader(open_container(name, f"file:{name}", allowed), name, threads=threads, rate_hz=rate_hz)
@@ -194,7 +197,7 @@ class VideoReader:
         where = f"after {last.time_s:.3f} s (frame {last.index})" if last else "at its beginning"
         if self._broken and self._cut_tail_is_fine:
             self.damaged -= 1
-            self.notes.append(f"{self.name}: the last picture is cut short: left out")
+            self.notes.append(f"{self.name}: the last picture is cut short: left out; check input_size (--input-size)")
         elif self._broken:
             raise FrameSourceError(f"{self.name}: damaged or cut off {where}: {self._broken}", on_the_way=True)
         elif last is not None and (missing_s := self._missing_s(last)) > _CUT_S:
