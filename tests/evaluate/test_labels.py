@@ -61,7 +61,21 @@ def test_what_is_wrong_is_said(tmp_path, row, says):
 
 def test_a_missing_column_is_named(tmp_path):
     with pytest.raises(ParameterError, match="lacks the column contact_frame"):
-        labels(tmp_path, "a,0,\n", "file,collision,contact_uncertainty_frames\n")
+        labels(tmp_path, "a,1,2\n", "file,collision,contact_uncertainty_frames\n")
+
+
+def test_without_a_collision_no_contact_is_needed(tmp_path):
+    (label,) = labels(tmp_path, "a.mp4,0\n", "file,collision\n")
+    assert (label.collision, label.contact_frame) == (False, None)
+
+
+@pytest.mark.parametrize(("text", "says"), [
+    ("", "is empty"),
+    ("file;collision\na.mp4;0\n", "columns are parted by ';': must be commas"),
+])  # fmt: skip
+def test_files_that_are_no_such_table(tmp_path, text, says):
+    with pytest.raises(ParameterError, match=says):
+        labels(tmp_path, text, "")
 
 
 def test_no_such_file(tmp_path):

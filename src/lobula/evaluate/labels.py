@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ParameterError
 
-REQUIRED = ("file", "collision", "contact_frame", "contact_uncertainty_frames")
+REQUIRED = ("file", "collision")
+CONTACT = ("contact_frame", "contact_uncertainty_frames")
+"""Needed where a row has a collision."""
+
 OPTIONAL = ("event", "class", "confidence")
 
 _TRUTH = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
@@ -61,10 +64,7 @@ def read_labels(path: str | Path) -> list[Label]:
     try:
         with path.open(newline="", encoding="utf-8-sig") as text:
             rows = csv.DictReader(text)
-            missing = [name for name in REQUIRED if name not in (rows.fieldnames or ())]
-            if missing:
-                raise ParameterError(f"labels {path}: lacks the column {', '.join(missing)}: must have "
-                                     f"{', '.join(REQUIRED)}; may have {', '.join(OPTIONAL)}")
+            _require_columns(rows.fieldnames, REQUIRED, f"labels {path}")
             labels = [_label(row, f"labels {path}: line {rows.line_num}") for row in rows]
     except OSError as error:
         reason = "no such file" if isinstance(error, FileNotFoundError) else error.strerror
@@ -81,15 +81,28 @@ def read_labels(path: str | Path) -> list[Label]:
     return labels
 
 
+def _require_columns(there: Iterable[str] | None, needed: Sequence[str], where: str) -> None:
+    if there is None:
+        raise ParameterError(f"{where}: is empty: must have a heading with {', '.join(REQUIRED)}")
+    names = list(there)
+    missing = [name for name in needed if name not in names]
+    if missing:
+        other = next((mark for mark in (";", "\t") if len(names) == 1 and mark in names[0]), None)
+        hint = "" if other is None else f"; its columns are parted by {other!r}: must be commas"
+        raise ParameterError(f"{where}: lacks the column {', '.join(missing)}: must have {', '.join(REQUIRED)}, and "
+                             f"{', '.join(CONTACT)} where collision is 1; may have {', '.join(OPTIONAL)}{hint}")
+
+
 def _label(row: Mapping[str, str | None], where: str) -> Label:
-    cells = {name: (row.get(name) or "").strip() for name in (*REQUIRED, *OPTIONAL)}
+    cells = {name: (row.get(name) or "").strip() for name in (*REQUIRED, *CONTACT, *OPTIONAL)}
     if not cells["file"]:
         raise ParameterError(f"{where}: no file: must name a clip")
     hit = _TRUTH.get(cells["collision"].lower())
     if hit is None:
-        raise ParameterError(f"{where}: collision = {cells['collision']!r}: must be 1 or 0")
+        raise ParameterError(f"{where}: collision = {cells['collision']!r}: must be 1 or 0 (or yes, no, true, false)")
     contact_frame, uncertainty_frames = None, 0
     if hit:
+        _require_columns(row, CONTACT, where)
         contact_frame = _whole(cells["contact_frame"], "contact_frame", where)
         uncertainty_frames = _whole(cells["contact_uncertainty_frames"], "contact_uncertainty_frames", where)
     elif cells["contact_frame"]:
