@@ -2,11 +2,11 @@
 
     import lobula
 
-    net = lobula.Network()
-    with lobula.open("clip.mp4") as frames:
-        for frame in frames:
-            if net.step(frame).collision:
-                print(f"collision at {frame.time_s:.2f} s")
+    net, alarm = lobula.Network(), False
+    for frame in lobula.open("clip.mp4"):
+        before, alarm = alarm, net.step(frame).collision
+        if alarm and not before:
+            print(f"collision at {frame.time_s:.2f} s")
 
 Importing lobula does nothing else: each name below is loaded when it is first used.
 """

@@ -27,8 +27,8 @@ def test_the_lines_of_the_readme_find_the_collision(clip: float, capsys: pytest.
     assert len([line for line in code.splitlines() if line]) == 6
     exec(code, {})
     times_s = [float(line.split()[-2]) for line in capsys.readouterr().out.splitlines()]
-    assert times_s, "no line says collision"
-    assert clip - 2 < times_s[0] < clip
+    (time_s,) = times_s  # once, though the alarm lasts for many frames
+    assert clip - 2 < time_s < clip
 
 
 def test_the_python_page_runs_from_top_to_bottom(clip: float) -> None:
