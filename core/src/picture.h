@@ -11,16 +11,32 @@ static inline vf pixels_at(const char *row, int type, int x) {
     return type == LOBULA_UINT8 ? vf_from_u8((const uint8_t *)row + x) : vf_load((const float *)(const void *)row + x);
 }
 
-/* The pixels from x to the row's end, and zeros. */
+/* The pixels from x to the row's end, fewer than a vector, and zeros. Bytes that lie behind the row are not read; those
+ * before x are, and shifted out: a detour through memory would wait for all stores on the way. */
+INLINE vf last_bytes(const uint8_t *row, int x, int width) {
+    const uint8_t *last = row + width - LANES;
+    int surplus = x - (width - LANES);
+#if LANES == 16
+    static const uint8_t moves[32] = {0,   1,   2,   3,   4,   5,   6,   7,   8,   9,   10,  11,  12,  13,  14,  15,
+                                      128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128, 128};
+    __m128i move = _mm_loadu_si128((const __m128i *)(const void *)(moves + surplus));
+    return vf_from_bytes(_mm_shuffle_epi8(_mm_loadu_si128((const __m128i *)(const void *)last), move));
+#elif LANES == 8
+    uint64_t bytes;
+    memcpy(&bytes, last, sizeof bytes);
+    return vf_from_bytes(_mm_cvtsi64_si128((int64_t)(bytes >> 8 * surplus)));
+#elif LANES == 4
+    uint32_t bytes;
+    memcpy(&bytes, last, sizeof bytes);
+    return vf_from_bytes(bytes >> 8 * surplus);
+#else
+    return (float)last[surplus];
+#endif
+}
+
 static inline vf last_pixels(const char *row, int type, int x, int width) {
-    if (type == LOBULA_UINT8) {
-        uint8_t last[2 * LANES] = {0};
-        memcpy(last, row + width - LANES, LANES);
-        return vf_from_u8(last + x - (width - LANES));
-    }
-    float last[2 * LANES] = {0};
-    memcpy(last, row + (ptrdiff_t)(width - LANES) * 4, LANES * 4);
-    return vf_load(last + x - (width - LANES));
+    return type == LOBULA_UINT8 ? last_bytes((const uint8_t *)row, x, width)
+                                : vf_load_first((const float *)(const void *)row + x, width - x);
 }
 
 #endif

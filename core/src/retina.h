@@ -112,15 +112,32 @@ INLINE double pixel(const picture *p, int y, int x) {
     return p->type == LOBULA_UINT8 ? (double)((const uint8_t *)row)[x] : (double)((const float *)(const void *)row)[x];
 }
 
+typedef struct {
+    vf brighter, darker;
+} row_count;
+
+INLINE void count_change(row_count *c, vf change) {
+    vf half = vf_all(0.5f), one = vf_all(1.0f);
+    c->brighter += vf_keep(vf_gt(change, half), one);
+    c->darker += vf_keep(vf_gt(vf_all(0.0f) - change, half), one);
+}
+
 /* The rest of model.retina.change_statistics; asked for only where the mean change could be a flash. */
 static void coverage(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker) {
-    *brighter = *darker = 0;
-    for (int y = 0; y < e.height; y++)
-        for (int x = 0; x < e.width; x++) {
-            float change = (float)pixel(&image, y, x) - (float)pixel(&previous, y, x);
-            *brighter += change > 0.5f;
-            *darker += change < -0.5f;
-        }
+    vd brighter_sum = {0}, darker_sum = {0};
+    int whole = e.width / LANES * LANES, now_type = image.type, before_type = previous.type;
+    for (int y = 0; y < e.height; y++) {
+        const char *now = picture_row(&image, y), *before = picture_row(&previous, y);
+        row_count c = {vf_all(0.0f), vf_all(0.0f)};
+        for (int x = 0; x < whole; x += LANES)
+            count_change(&c, pixels_at(now, now_type, x) - pixels_at(before, before_type, x));
+        if (whole < e.width)
+            count_change(&c, last_pixels(now, now_type, whole, e.width) - last_pixels(before, before_type, whole, e.width));
+        vd_add(&brighter_sum, c.brighter);
+        vd_add(&darker_sum, c.darker);
+    }
+    *brighter = (int64_t)vd_total(&brighter_sum);
+    *darker = (int64_t)vd_total(&darker_sum);
 }
 
 /* The sums behind the least squares of model.retina.find_flash. */

@@ -52,9 +52,11 @@ INLINE vm vm_and(vm a, vm b) { return (vm)(a & b); }
 INLINE vf vf_keep(vm m, vf a) { return _mm512_maskz_mov_ps(m, a); }
 INLINE int vm_any(vm m) { return m != 0; }
 INLINE vm vm_first(int n) { return (vm)((1u << n) - 1u); }
+INLINE vf vf_from_bytes(__m128i bytes) { return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(bytes)); }
 INLINE vf vf_from_u8(const uint8_t *p) {
-    return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128((const __m128i *)p)));
+    return vf_from_bytes(_mm_loadu_si128((const __m128i *)(const void *)p));
 }
+INLINE vf vf_load_first(const float *p, int n) { return _mm512_maskz_loadu_ps(vm_first(n), p); }
 INLINE float vf_highest(vf a) { return _mm512_reduce_max_ps(a); }
 INLINE void vd_add(vd *sum, vf a) {
     sum->low += _mm512_cvtps_pd(_mm512_castps512_ps256(a));
@@ -79,9 +81,11 @@ INLINE int vm_any(vm m) { return _mm256_movemask_ps(m) != 0; }
 INLINE vm vm_first(int n) {
     return _mm256_castsi256_ps(_mm256_cmpgt_epi32(_mm256_set1_epi32(n), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)));
 }
+INLINE vf vf_from_bytes(__m128i bytes) { return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(bytes)); }
 INLINE vf vf_from_u8(const uint8_t *p) {
-    return _mm256_cvtepi32_ps(_mm256_cvtepu8_epi32(_mm_loadl_epi64((const __m128i *)p)));
+    return vf_from_bytes(_mm_loadl_epi64((const __m128i *)(const void *)p));
 }
+INLINE vf vf_load_first(const float *p, int n) { return _mm256_maskload_ps(p, _mm256_castps_si256(vm_first(n))); }
 INLINE float vf_highest(vf a) {
     __m128 m = _mm_max_ps(_mm256_castps256_ps128(a), _mm256_extractf128_ps(a, 1));
     m = _mm_max_ps(m, _mm_movehl_ps(m, m));
@@ -110,11 +114,17 @@ INLINE int vm_any(vm m) { return _mm_movemask_ps(m) != 0; }
 INLINE vm vm_first(int n) {
     return _mm_castsi128_ps(_mm_cmpgt_epi32(_mm_set1_epi32(n), _mm_setr_epi32(0, 1, 2, 3)));
 }
+INLINE vf vf_from_bytes(uint32_t bytes) {
+    __m128i zero = _mm_setzero_si128(), pairs = _mm_unpacklo_epi8(_mm_cvtsi32_si128((int32_t)bytes), zero);
+    return _mm_cvtepi32_ps(_mm_unpacklo_epi16(pairs, zero));
+}
 INLINE vf vf_from_u8(const uint8_t *p) {
-    int32_t four;
+    uint32_t four;
     memcpy(&four, p, 4);
-    __m128i zero = _mm_setzero_si128(), bytes = _mm_unpacklo_epi8(_mm_cvtsi32_si128(four), zero);
-    return _mm_cvtepi32_ps(_mm_unpacklo_epi16(bytes, zero));
+    return vf_from_bytes(four);
+}
+INLINE vf vf_load_first(const float *p, int n) {
+    return _mm_setr_ps(p[0], n > 1 ? p[1] : 0.0f, n > 2 ? p[2] : 0.0f, n > 3 ? p[3] : 0.0f);
 }
 INLINE float vf_highest(vf a) {
     __m128 m = _mm_max_ps(a, _mm_movehl_ps(a, a));
@@ -144,10 +154,18 @@ INLINE vm vm_first(int n) {
     static const int32_t lanes[4] = {0, 1, 2, 3};
     return vcltq_s32(vld1q_s32(lanes), vdupq_n_s32(n));
 }
+INLINE vf vf_from_bytes(uint32_t bytes) {
+    return vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(vcreate_u8(bytes)))));
+}
 INLINE vf vf_from_u8(const uint8_t *p) {
     uint32_t four;
     memcpy(&four, p, 4);
-    return vcvtq_f32_u32(vmovl_u16(vget_low_u16(vmovl_u8(vcreate_u8(four)))));
+    return vf_from_bytes(four);
+}
+INLINE vf vf_load_first(const float *p, int n) {
+    vf a = vsetq_lane_f32(p[0], vdupq_n_f32(0.0f), 0);
+    a = n > 1 ? vsetq_lane_f32(p[1], a, 1) : a;
+    return n > 2 ? vsetq_lane_f32(p[2], a, 2) : a;
 }
 INLINE float vf_highest(vf a) { return vmaxvq_f32(a); }
 INLINE void vd_add(vd *sum, vf a) {
@@ -172,6 +190,7 @@ INLINE vf vf_keep(vm m, vf a) { return m ? a : 0.0f; }
 INLINE int vm_any(vm m) { return m; }
 INLINE vm vm_first(int n) { return n > 0; }
 INLINE vf vf_from_u8(const uint8_t *p) { return (float)*p; }
+INLINE vf vf_load_first(const float *p, int n) { return n > 0 ? *p : 0.0f; }
 INLINE float vf_highest(vf a) { return a; }
 INLINE void vd_add(vd *sum, vf a) { sum->low += (double)a; }
 
