@@ -94,7 +94,8 @@ def _name(size: tuple[int, int]) -> str:
 
 def _told(what: str, size: tuple[int, int], t: dict[str, Timing], slow: str, fast: str, **about: Any) -> Figure:
     """Return how many times longer ``slow`` takes than ``fast`` at one size."""
-    details = {f"{name}_us": t[name].as_dict() for name in (slow, fast)}
+    details: dict[str, Any] = {f"{name}_us": t[name].as_dict() for name in (slow, fast)}
+    details["ratio_of_best"] = round(t[slow].best_us / t[fast].best_us, 3)
     return Figure(f"{what}, {_name(size)}", ratio(t[slow], t[fast]), "x", details=details, size=_name(size), **about)
 
 

@@ -32,7 +32,7 @@ def interleaved(
     contenders: Mapping[str, Pass],
     rounds: int,
     clock: Callable[[], int] = time.thread_time_ns,
-    at_least_ms: float = 20.0,
+    at_least_ms: float = 50.0,
 ) -> dict[str, Timing]:
     """Time ``contenders`` in turns, ``rounds`` times each.
 
