@@ -7,59 +7,65 @@
 
 #include "scratch.h"
 
-INLINE vf pull(const float *adapted, const int *span, const vf *share, int spans) {
-    vf sum = share[0] * (vf_load(adapted + span[0]) - vf_load(adapted - span[0]));
-    UNROLL for (int i = 1; i < spans; i++)
-        sum += share[i] * (vf_load(adapted + span[i]) - vf_load(adapted - span[i]));
-    return sum;
-}
-
-/* `adapted` rows have zero margins. `kept` is the state's row: ON - OFF, since a cell is never both, read as the step
- * before and written as this one; the halves of the step before go to `before` where the LGMDs read them. */
-INLINE vd emd_row_as(int n, const float *on, const float *off, float *restrict kept, float *restrict on_before,
-                     float *restrict off_before, const int *span, const float *span_share, int spans, int lgmds,
-                     vd sum) {
-    vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f);
-    for (int i = 0; i < spans; i++) share[i] = vf_all(span_share[i]);
-    for (int x = 0; x < n; x += LANES) {
-        vf before = vf_load(kept + x), rising = vf_max(before, zero), falling = vf_max(zero - before, zero);
-        vf_store(kept + x, vf_load(on + x) - vf_load(off + x));
-        if (lgmds) {
-            vf_store(on_before + x, rising);
-            vf_store(off_before + x, falling);
-        }
-        vd_add(&sum, rising * pull(on + x, span, share, spans) + falling * pull(off + x, span, share, spans));
+/* What one channel of the cells around pulls: those of the sign `side`, as magnitudes. */
+INLINE vf pull(const float *adapted, vf side, const int *span, const vf *share, int spans) {
+    vf sum = vf_all(0.0f);
+    UNROLL for (int i = 0; i < spans; i++) {
+        vf right = vf_max(vf_xor(vf_load(adapted + span[i]), side), vf_all(0.0f));
+        vf left = vf_max(vf_xor(vf_load(adapted - span[i]), side), vf_all(0.0f));
+        sum += share[i] * (right - left);
     }
     return sum;
 }
 
-/* Where adaptation is off the channels overlap: the step before came in rows of its own. */
-static vd emd_row_apart(int n, const float *on, const float *off, const float *on_before, const float *off_before,
-                        const step_plan *p, vd sum) {
-    vf share[LOBULA_MAX_SPANS];
-    for (int i = 0; i < LOBULA_MAX_SPANS; i++) share[i] = vf_all(p->span_share[i]);
-    for (int x = 0; x < n; x += LANES)
-        vd_add(&sum, vf_load(on_before + x) * pull(on + x, p->span, share, p->spans) +
-                         vf_load(off_before + x) * pull(off + x, p->span, share, p->spans));
+/* `adapted`, ON less OFF, has zero margins: a cell is never both, so the sign of the step before (in `kept`, the state's
+ * row) says which channel the cells around are to be read from. What the LGMDs read of both goes to `excitation`. */
+INLINE vd emd_row_as(int n, const float *adapted, float *restrict kept, float *const *excitation, const int *span,
+                     const float *span_share, int spans, int lgmds, vd sum) {
+    vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f);
+    for (int i = 0; i < spans; i++) share[i] = vf_all(span_share[i]);
+    float *on = lgmds ? excitation[E_ON] : NULL, *off = lgmds ? excitation[E_OFF] : NULL;
+    float *on_before = lgmds ? excitation[E_ON_BEFORE] : NULL, *off_before = lgmds ? excitation[E_OFF_BEFORE] : NULL;
+    for (int x = 0; x < n; x += LANES) {
+        vf before = vf_load(kept + x), now = vf_load(adapted + x), side = vf_sign(before);
+        vf_store(kept + x, now);
+        if (lgmds) {
+            vf_store(on + x, vf_max(now, zero));
+            vf_store(off + x, vf_max(zero - now, zero));
+            vf_store(on_before + x, vf_max(before, zero));
+            vf_store(off_before + x, vf_max(zero - before, zero));
+        }
+        vd_add(&sum, vf_xor(before, side) * pull(adapted + x, side, span, share, spans));
+    }
     return sum;
 }
 
-static vd emd_row(int n, const float *on, const float *off, float *kept, float *const *before, const step_plan *p,
-                  int lgmds, vd sum) {
+static vd emd_row(int n, const float *adapted, float *kept, float *const *excitation, const step_plan *p, int lgmds,
+                  vd sum) {
     static const int usual[4] = {1, 2, 3, 4};
     if (p->spans != 4 || memcmp(p->span, usual, sizeof usual) != 0)
-        return emd_row_as(n, on, off, kept, before[ON], before[OFF], p->span, p->span_share, p->spans, lgmds, sum);
-    return lgmds ? emd_row_as(n, on, off, kept, before[ON], before[OFF], usual, p->span_share, 4, 1, sum)
-                 : emd_row_as(n, on, off, kept, NULL, NULL, usual, p->span_share, 4, 0, sum);
+        return emd_row_as(n, adapted, kept, excitation, p->span, p->span_share, p->spans, lgmds, sum);
+    return lgmds ? emd_row_as(n, adapted, kept, excitation, usual, p->span_share, 4, 1, sum)
+                 : emd_row_as(n, adapted, kept, NULL, usual, p->span_share, 4, 0, sum);
+}
+
+/* Where adaptation is off the channels overlap: one of them, and what it was before. */
+static vd emd_row_apart(int n, const float *now, const float *before, const step_plan *p, vd sum) {
+    vf share[LOBULA_MAX_SPANS];
+    for (int i = 0; i < LOBULA_MAX_SPANS; i++) share[i] = vf_all(p->span_share[i]);
+    for (int x = 0; x < n; x += LANES)
+        vd_add(&sum, vf_load(before + x) * pull(now + x, vf_all(0.0f), p->span, share, p->spans));
+    return sum;
 }
 
 static float part_of(float kept, float sign) { return sign * kept > 0.0f ? sign * kept : 0.0f; }
 
-/* The map itself, only for a tap: each pair booked at its left cell. `before` holds the channel times `sign`. */
+/* The map itself, only for a tap: each pair booked at its left cell. Both rows hold the channel times `sign`. */
 static void emd_map(int width, const float *now, const float *before, float sign, const step_plan *p, float *map) {
     for (int i = 0; i < p->spans; i++)
         for (int x = 0, far = p->span[i]; far < width; x++, far++)
-            map[x] += p->span_share[i] * (part_of(before[x], sign) * now[far] - now[x] * part_of(before[far], sign));
+            map[x] += p->span_share[i] * (part_of(before[x], sign) * part_of(now[far], sign) -
+                                          part_of(now[x], sign) * part_of(before[far], sign));
 }
 
 #endif

@@ -60,21 +60,37 @@ INLINE on_off halves(vf change) {
     return x;
 }
 
-/* The rows of both channels: `kept` in the state, this step's over the one before; `adapted` for the layers that
- * follow; and `before`, the adapted ones of the step before, only where adaptation is off. */
+/* The rows of both channels: `kept` in the state, this step's over the one before; and what goes on. With adaptation
+ * that is one row, ON less OFF, since only one of them rises; without, both channels and what they were before. */
 typedef struct {
-    float *kept[2], *adapted[2], *before[2];
+    float *kept[2], *adapted, *apart[2], *before[2];
 } lamina_rows;
 
-/* model.lamina.on_off and model.lamina.fdsr of one channel */
-INLINE void adapt(vf signal, vf residual, vf share, float *kept, float *adapted, float *before, int fdsr) {
-    vf then = vf_load(kept), now = signal + residual * then;
-    vf_store(kept, now);
+/* A channel now and one step ago. */
+typedef struct {
+    vf now, before;
+} two_steps;
+
+/* model.lamina.on_off of one channel */
+INLINE two_steps remember(vf signal, vf residual, float *kept) {
+    two_steps x = {signal, vf_load(kept)};
+    x.now += residual * x.before;
+    vf_store(kept, x.now);
+    return x;
+}
+
+/* model.lamina.fdsr of one channel */
+INLINE vf adapt(two_steps x, vf share) { return vf_max(share * (x.now - x.before), vf_all(0.0f)); }
+
+INLINE void lamina_vector(int x, on_off signal, vf residual, vf share, const lamina_rows *r, int fdsr) {
+    two_steps on = remember(signal.on, residual, r->kept[0] + x), off = remember(signal.off, residual, r->kept[1] + x);
     if (fdsr) {
-        vf_store(adapted, vf_max(share * (now - then), vf_all(0.0f)));
+        vf_store(r->adapted + x, adapt(on, share) - adapt(off, share));
     } else {
-        vf_store(adapted, now);
-        vf_store(before, then);
+        vf_store(r->apart[0] + x, on.now);
+        vf_store(r->apart[1] + x, off.now);
+        vf_store(r->before[0] + x, on.before);
+        vf_store(r->before[1] + x, off.before);
     }
 }
 
@@ -89,8 +105,7 @@ INLINE void lamina_row_as(int n, const float *e, const float *i, const float *in
     vf residual = vf_all(p->residual), share = vf_all(p->fdsr_share);
     for (int x = 0; x < n; x += LANES) {
         on_off edge = edges(blur_along(e + x, a_weight, r), blur_along(i + x, b_weight, R), dead_zone, below);
-        adapt(edge.on, residual, share, q.kept[0] + x, q.adapted[0] + x, q.before[0] + x, fdsr);
-        adapt(edge.off, residual, share, q.kept[1] + x, q.adapted[1] + x, q.before[1] + x, fdsr);
+        lamina_vector(x, edge, residual, share, &q, fdsr);
     }
 }
 
@@ -98,11 +113,7 @@ INLINE void lamina_row_as(int n, const float *e, const float *i, const float *in
 static void lamina_row_unfiltered(int n, const float *change, const step_plan *p, const lamina_rows *rows, int fdsr) {
     lamina_rows q = *rows;
     vf residual = vf_all(p->residual), share = vf_all(p->fdsr_share);
-    for (int x = 0; x < n; x += LANES) {
-        on_off half = halves(vf_load(change + x));
-        adapt(half.on, residual, share, q.kept[0] + x, q.adapted[0] + x, q.before[0] + x, fdsr);
-        adapt(half.off, residual, share, q.kept[1] + x, q.adapted[1] + x, q.before[1] + x, fdsr);
-    }
+    for (int x = 0; x < n; x += LANES) lamina_vector(x, halves(vf_load(change + x)), residual, share, &q, fdsr);
 }
 
 /* The signed edges themselves, only for a tap. */

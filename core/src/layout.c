@@ -50,7 +50,6 @@ int layout_init(layout *l, const lobula_params *p, int width, int height) {
     l->reads[1] = (int)p->lgmd2.reads;
 
     int n = 0;
-    l->planes.luma = n++;
     l->planes.on = n++;
     l->planes.off = n++;
     l->planes.adapted = p->lamina.fdsr.enabled != 0.0 ? n++ : -1;
@@ -63,6 +62,7 @@ int layout_init(layout *l, const lobula_params *p, int width, int height) {
     /* A vector may start at the last margin pixel and run on. */
     l->long_row = l->margin + l->stride + l->margin + ROW_FLOATS;
     l->ring = power_of_two(2 * larger(l->spacing[0], l->spacing[1]) + 2);
+    l->excited = power_of_two(larger(l->spacing[0], l->spacing[1]) + 2);
 
     /* Steps are at least two thirds of a tick apart (clock.c), and older spikes leave as new ones come. */
     l->window_capacity = (int)ceil(p->decision.window_ms / (0.6 * p->clock.period_ms)) + 2;
@@ -72,7 +72,8 @@ int layout_init(layout *l, const lobula_params *p, int width, int height) {
     at += aligned((size_t)(l->inner_radius + 1 + l->outer_radius + 1) * sizeof(float));
     l->window_at = at;
     at += aligned((size_t)l->window_capacity * sizeof(lobula_decision_entry));
+    l->luma = (size_t)height * (size_t)l->stride;
     l->planes_at = at;
-    l->state_bytes = at + aligned((size_t)height * l->record * sizeof(float));
+    l->state_bytes = at + aligned((l->luma + (size_t)height * l->record) * sizeof(float));
     return LOBULA_OK;
 }

@@ -13,10 +13,11 @@ enum { ON, OFF };
 
 #define MAX_STRETCH 4 /* of the EMDs' spans, in long steps */
 
-/* Planes of the state, in the order a row of each is stored; -1 where the settings need none. All rows of the planes
- * at one y lie side by side, so that the step walks through one stream of memory. */
+/* Planes of the state but the luma, in the order a row of each is stored; -1 where the settings need none. All their
+ * rows at one y lie side by side, so that the step walks through one stream of memory. The luma, which is looked at
+ * once more before each step, lies by itself in front of them. */
 typedef struct {
-    int luma, on, off, adapted, change;
+    int on, off, adapted, change;
     int count;
 } plane_numbers;
 
@@ -30,10 +31,12 @@ typedef struct {
     int inner_radius, outer_radius; /* of the DoG; 0 where it is off */
     int spacing[2];                 /* neighbour_px of each LGMD */
     int reads[2];                   /* source of each LGMD */
-    int ring;                       /* rows of the rings that inhibition and grouping keep */
+    int ring;                       /* rows that inhibition and grouping keep, a power of two */
+    int excited;                    /* rows of what excites the LGMDs that are kept, a power of two */
     int window_capacity;
-    size_t record;          /* one row of every plane */
-    size_t planes_at;       /* offset of the first row in the state, bytes */
+    size_t record;          /* one row of every plane but the luma */
+    size_t luma;            /* the whole luma */
+    size_t planes_at;       /* offset of the luma in the state, bytes; the others follow */
     size_t kernel_at;       /* offset of the DoG weights, bytes */
     size_t window_at;       /* offset of the decision's entries, bytes */
     size_t state_bytes;

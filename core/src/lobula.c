@@ -71,9 +71,11 @@ int lobula_reset(void *state) {
     none.lgmd1.raw = none.lgmd1.potential = none.lgmd2.raw = none.lgmd2.potential = 0.5;
     s->now = none;
     s->window_count = 0;
-    memset(state_planes(s), 0, (size_t)s->layout.height * s->layout.record * sizeof(float));
+    memset(state_planes(s), 0, planes_floats(&s->layout) * sizeof(float));
     return LOBULA_OK;
 }
+
+enum { NOT_KEPT = -1, LUMA = -2 };
 
 /* Where a public plane is kept: in which one of the state, and which sign of it. */
 typedef struct {
@@ -82,9 +84,9 @@ typedef struct {
 } place;
 
 static place place_of(const layout *l, int plane) {
-    place none = {-1, 0.0f}, p = none;
+    place none = {NOT_KEPT, 0.0f}, p = none;
     switch (plane) {
-    case LOBULA_PLANE_LUMA: p.plane = l->planes.luma; break;
+    case LOBULA_PLANE_LUMA: p.plane = LUMA; break;
     case LOBULA_PLANE_ON: p.plane = l->planes.on; break;
     case LOBULA_PLANE_OFF: p.plane = l->planes.off; break;
     case LOBULA_PLANE_ADAPTED_ON:
@@ -96,10 +98,15 @@ static place place_of(const layout *l, int plane) {
         break;
     }
     case LOBULA_PLANE_CHANGE_ON: p.plane = l->planes.change; break;
-    case LOBULA_PLANE_CHANGE_OFF: p.plane = l->planes.change < 0 ? -1 : l->planes.change + 1; break;
+    case LOBULA_PLANE_CHANGE_OFF: p.plane = l->planes.change < 0 ? NOT_KEPT : l->planes.change + 1; break;
     default: break;
     }
     return p;
+}
+
+static float *row_in(lobula_state *s, place p, int y) {
+    return p.plane == LUMA ? luma_row(&s->layout, state_planes(s), y)
+                           : state_row(&s->layout, state_planes(s), p.plane, y);
 }
 
 int lobula_get_plane(const void *state, int plane, float *out) {
@@ -109,7 +116,7 @@ int lobula_get_plane(const void *state, int plane, float *out) {
     const layout *l = &s->layout;
     place p = place_of(l, plane);
     for (int y = 0; y < l->height; y++, out += l->width) {
-        const float *row = p.plane < 0 ? NULL : state_row(l, state_planes(s), p.plane, y);
+        const float *row = p.plane == NOT_KEPT ? NULL : row_in(s, p, y);
         for (int x = 0; x < l->width; x++) {
             float value = row ? row[x] : 0.0f;
             out[x] = p.sign == 0.0f ? value : p.sign * value > 0.0f ? p.sign * value : 0.0f;
@@ -124,11 +131,11 @@ int lobula_set_plane(void *state, int plane, const float *in) {
     if (plane < 0 || plane >= LOBULA_PLANES || !in) return LOBULA_BAD_ARGUMENT;
     const layout *l = &s->layout;
     place p = place_of(l, plane);
-    if (p.plane < 0) return LOBULA_OK;
+    if (p.plane == NOT_KEPT) return LOBULA_OK;
     if (l->planes.adapted < 0 && (plane == LOBULA_PLANE_ADAPTED_ON || plane == LOBULA_PLANE_ADAPTED_OFF))
         return LOBULA_OK; /* without adaptation they are the channels themselves */
     for (int y = 0; y < l->height; y++, in += l->width) {
-        float *row = state_row(l, state_planes(s), p.plane, y);
+        float *row = row_in(s, p, y);
         for (int x = 0; x < l->width; x++) {
             /* ON and OFF share a plane: each replaces only its own sign */
             if (p.sign == 0.0f)

@@ -53,7 +53,7 @@ static void read_out(const lobula_state *s, double time_s, int turning, const in
 static void rest(lobula_state *s) {
     lobula_scalars *now = &s->now;
     lobula_lgmd_scalars quiet = {0.5, 0.5, 0.0};
-    memset(state_planes(s), 0, (size_t)s->layout.height * s->layout.record * sizeof(float));
+    memset(state_planes(s), 0, planes_floats(&s->layout) * sizeof(float));
     now->lgmd1 = now->lgmd2 = quiet;
     now->rightward = now->leftward = 0.0;
     now->started_s = 0.0;
@@ -100,8 +100,8 @@ static void stand(call *c, double time_s, int turning, lobula_reading *reading, 
 
 static picture luma_of(lobula_state *s) {
     const layout *l = &s->layout;
-    picture p = {(const char *)(state_planes(s) + (size_t)l->planes.luma * (size_t)l->stride),
-                 (ptrdiff_t)(l->record * sizeof(float)), LOBULA_FLOAT32};
+    picture p = {(const char *)luma_row(l, state_planes(s), 0), (ptrdiff_t)((size_t)l->stride * sizeof(float)),
+                 LOBULA_FLOAT32};
     return p;
 }
 

@@ -178,7 +178,7 @@ static double lit_change(extent e, picture image, picture previous, float gain, 
 
 static void set_luma(const layout *l, picture image, float *planes) {
     for (int y = 0; y < l->height; y++) {
-        float *luma = planes + (size_t)y * l->record + (size_t)l->planes.luma * (size_t)l->stride;
+        float *luma = luma_row(l, planes, y);
         for (int x = 0; x < l->width; x++) luma[x] = (float)pixel(&image, y, x);
     }
 }

@@ -19,15 +19,12 @@ typedef struct {
 
 enum { E_ON, E_OFF, E_ON_BEFORE, E_OFF_BEFORE, E_ROWS };
 
-/* What the LGMDs read: ON, OFF, and the same one step ago, edges repeated outwards. */
-typedef ring excitation[E_ROWS];
-
 typedef struct {
     ring change; /* as many rows as the DoG looks at, not a power of two; see window_of */
     ring inner, outer; /* blurred down the columns */
-    ring adapted[2]; /* zero margins for the EMDs, then edges repeated outwards for the LGMDs */
-    ring before[2];  /* the same one step ago, where someone needs it apart from the state */
-    ring retina[E_ROWS]; /* excitation by the change itself */
+    ring adapted; /* ON less OFF; zero margins */
+    ring apart[2], before[2]; /* where adaptation is off: both channels, and one step ago */
+    ring excitation[SOURCES][E_ROWS]; /* what the LGMDs read, edges repeated outwards */
     ring weighed[MAX_SETS / 2]; /* two sets in each, see lateral_inhibition.h */
     float *inhibition[MAX_SETS]; /* one row of I of each set */
     ring sums; /* of both LGMDs, see grouping.h */
@@ -85,16 +82,20 @@ static inline size_t list_floats(const layout *l) { return (size_t)l->height * (
 
 /* The rows of one frame at work. */
 static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
-    int lgmds_read_lamina = l->reads[0] == ADAPTED || l->reads[1] == ADAPTED;
-    int lgmds_read_change = l->reads[0] == CHANGE || l->reads[1] == CHANGE;
+    int fdsr = l->planes.adapted >= 0;
     s->change = take_short(m, l, 2 * l->outer_radius + 1);
     s->inner = take_long(m, l, l->outer_radius ? 2 : 0);
     s->outer = take_long(m, l, l->outer_radius ? 2 : 0);
+    s->adapted = take_long(m, l, fdsr ? 2 : 0);
     for (int c = 0; c < 2; c++) {
-        s->adapted[c] = take_long(m, l, 2 * l->ring);
-        s->before[c] = take_long(m, l, lgmds_read_lamina || l->planes.adapted < 0 ? 4 : 0);
+        s->apart[c] = take_long(m, l, fdsr ? 0 : 2);
+        s->before[c] = take_long(m, l, fdsr ? 0 : 2);
     }
-    for (int k = 0; k < E_ROWS; k++) s->retina[k] = take_long(m, l, lgmds_read_change ? l->ring : 0);
+    for (int source = 0; source < SOURCES; source++)
+        for (int k = 0; k < E_ROWS; k++) {
+            int read = l->reads[0] == source || l->reads[1] == source;
+            s->excitation[source][k] = take_long(m, l, !read ? 0 : k < E_ON_BEFORE ? l->excited : 2);
+        }
     for (int k = 0; k < MAX_SETS / 2; k++) s->weighed[k] = take_ring(m, l->ring, 4 * l->stride, 0);
     for (int k = 0; k < MAX_SETS; k++) s->inhibition[k] = take(m, (size_t)l->stride);
     s->sums = take_ring(m, l->ring, 2 * l->stride, 0);

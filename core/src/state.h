@@ -23,9 +23,13 @@ static inline lobula_decision_entry *state_window(lobula_state *s) {
     return (lobula_decision_entry *)((char *)s + s->layout.window_at);
 }
 
-/* One row of one plane of the state. */
+static inline size_t planes_floats(const layout *l) { return l->luma + (size_t)l->height * l->record; }
+
+/* One row of the luma, and of one of the other planes. */
+static inline float *luma_row(const layout *l, float *planes, int y) { return planes + (size_t)y * (size_t)l->stride; }
+
 static inline float *state_row(const layout *l, float *planes, int plane, int y) {
-    return planes + (size_t)y * l->record + (size_t)plane * (size_t)l->stride;
+    return planes + l->luma + (size_t)y * l->record + (size_t)plane * (size_t)l->stride;
 }
 
 #endif

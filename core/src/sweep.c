@@ -37,8 +37,9 @@ static void zero_right(float *row, int width, int margin) {
     for (int x = 0; x < margin + LANES; x += LANES) vf_store(row + width + x, vf_all(0.0f));
 }
 
-static void zero_left(float *row, int margin) {
-    for (int x = 0; x < margin; x += LANES) vf_store(row - x - LANES, vf_all(0.0f));
+static void zero_margins(const ring *r, int margin) {
+    for (unsigned i = 0; i < r->rows; i++)
+        for (int x = 0; x < margin; x += LANES) vf_store(r->first + (size_t)i * (size_t)r->stride - x - LANES, vf_all(0.0f));
 }
 
 static float *tap_row(const step_plan *p, int tap, const layout *l, int y) {
@@ -53,12 +54,12 @@ static void copy_to_tap(const step_plan *p, int tap, const layout *l, int y, con
 static void retina_row(const constants *c, scratch *k, const step_plan *p, int y) {
     const layout *l = c->l;
     const char *image = picture_row(&p->image, y);
-    float *luma = state_row(l, c->planes, l->planes.luma, y);
+    float *luma = luma_row(l, c->planes, y);
     float *change = k->change.first + (size_t)((unsigned)y % k->change.rows) * (size_t)k->change.stride;
     if (c->lgmds_read_change) {
         float *on = state_row(l, c->planes, l->planes.change, y);
         retina_rows r = {luma, change, {on, on + l->stride}, {NULL}};
-        for (int i = 0; i < E_ROWS; i++) r.excitation[i] = row_of(&k->retina[i], y);
+        for (int i = 0; i < E_ROWS; i++) r.excitation[i] = row_of(&k->excitation[CHANGE][i], y);
         retina_row_excites(l->width, p, image, &r);
         for (int i = 0; i < E_ROWS; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
     } else {
@@ -83,22 +84,29 @@ static void blur_row(const constants *c, scratch *k, int y) {
 static void lamina_row(const constants *c, scratch *k, const step_plan *p, int y) {
     const layout *l = c->l;
     const float *e = row_of(&k->inner, y), *i = row_of(&k->outer, y), *change = k->change.first;
-    lamina_rows rows = {{state_row(l, c->planes, l->planes.on, y), state_row(l, c->planes, l->planes.off, y)},
-                        {row_of(&k->adapted[ON], y), row_of(&k->adapted[OFF], y)},
-                        {NULL, NULL}};
-    if (!c->fdsr)
-        for (int ch = 0; ch < 2; ch++) rows.before[ch] = row_of(&k->before[ch], y);
+    lamina_rows rows = {.kept = {state_row(l, c->planes, l->planes.on, y), state_row(l, c->planes, l->planes.off, y)}};
+    if (c->fdsr)
+        rows.adapted = row_of(&k->adapted, y);
+    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+        rows.apart[ch] = row_of(&k->apart[ch], y);
+        rows.before[ch] = row_of(&k->before[ch], y);
+    }
     if (!l->outer_radius)
         lamina_row_unfiltered(c->n, change, p, &rows, c->fdsr);
     else if (l->inner_radius == 2 && l->outer_radius == 4 && c->fdsr)
         lamina_row_as(c->n, e, i, c->inner, 2, c->outer, 4, p, &rows, 1);
     else
         lamina_row_as(c->n, e, i, c->inner, l->inner_radius, c->outer, l->outer_radius, p, &rows, c->fdsr);
+    if (c->fdsr)
+        zero_right(rows.adapted, l->width, l->margin);
+    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+        zero_right(rows.apart[ch], l->width, l->margin);
+        zero_right(rows.before[ch], l->width, 0);
+    }
     for (int ch = 0; ch < 2; ch++) {
-        zero_right(rows.adapted[ch], l->width, l->margin);
-        if (c->lgmds_read_lamina) zero_left(rows.adapted[ch], l->margin);
-        if (!c->fdsr) zero_right(rows.before[ch], l->width, 0);
-        copy_to_tap(p, LOBULA_TAP_ADAPTED_ON + ch, l, y, rows.adapted[ch]);
+        float *map = tap_row(p, LOBULA_TAP_ADAPTED_ON + ch, l, y);
+        for (int x = 0; map && x < l->width; x++)
+            map[x] = c->fdsr ? part_of(rows.adapted[x], ch == ON ? 1.0f : -1.0f) : rows.apart[ch][x];
     }
     float *map = tap_row(p, LOBULA_TAP_LAMINA, l, y);
     if (map && l->outer_radius)
@@ -107,31 +115,38 @@ static void lamina_row(const constants *c, scratch *k, const step_plan *p, int y
         copy_to_tap(p, LOBULA_TAP_LAMINA, l, y, change);
 }
 
-static void motion_row(const constants *c, scratch *k, const step_plan *p, int y) {
-    const layout *l = c->l;
-    float *on = row_of(&k->adapted[ON], y), *off = row_of(&k->adapted[OFF], y), *before[2] = {NULL, NULL};
-    float *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL;
-    float *map = tap_row(p, LOBULA_TAP_MOTION, l, y);
-    if (k->before[ON].first)
-        for (int ch = 0; ch < 2; ch++) before[ch] = row_of(&k->before[ch], y);
-    if (map) {
-        memset(map, 0, (size_t)l->width * sizeof(float));
-        emd_map(l->width, on, kept ? kept : before[ON], 1.0f, p, map);
-        emd_map(l->width, off, kept ? kept : before[OFF], kept ? -1.0f : 1.0f, p, map);
-    }
-    if (c->fdsr)
-        k->hs = emd_row(c->n, on, off, kept, before, p, c->lgmds_read_lamina, k->hs);
-    else
-        k->hs = emd_row_apart(c->n, on, off, before[ON], before[OFF], p, k->hs);
-    if (c->lgmds_read_lamina) {
-        float *rows[E_ROWS] = {on, off, before[ON], before[OFF]};
-        for (int i = 0; i < E_ROWS; i++) replicate_margins(rows[i], l->width, c->reach[ADAPTED]);
+static void motion_tap(const constants *c, const scratch *k, const step_plan *p, int y, const float *kept) {
+    float *map = tap_row(p, LOBULA_TAP_MOTION, c->l, y);
+    if (!map) return;
+    memset(map, 0, (size_t)c->l->width * sizeof(float));
+    for (int ch = 0; ch < 2; ch++) {
+        if (kept)
+            emd_map(c->l->width, row_of(&k->adapted, y), kept, ch == ON ? 1.0f : -1.0f, p, map);
+        else
+            emd_map(c->l->width, row_of(&k->apart[ch], y), row_of(&k->before[ch], y), 1.0f, p, map);
     }
 }
 
-static const ring *excitation_of(const scratch *k, int source, int channel, int before) {
-    if (source == CHANGE) return &k->retina[before ? E_ON_BEFORE + channel : channel];
-    return before ? &k->before[channel] : &k->adapted[channel];
+static void motion_row(const constants *c, scratch *k, const step_plan *p, int y) {
+    const layout *l = c->l;
+    float *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL, *excitation[E_ROWS] = {NULL};
+    for (int i = 0; i < E_ROWS && c->lgmds_read_lamina; i++) excitation[i] = row_of(&k->excitation[ADAPTED][i], y);
+    motion_tap(c, k, p, y, kept);
+    if (c->fdsr)
+        k->hs = emd_row(c->n, row_of(&k->adapted, y), kept, excitation, p, c->lgmds_read_lamina, k->hs);
+    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+        const float *now = row_of(&k->apart[ch], y), *before = row_of(&k->before[ch], y);
+        k->hs = emd_row_apart(c->n, now, before, p, k->hs);
+        if (!c->lgmds_read_lamina) continue;
+        memcpy(excitation[ch], now, (size_t)l->width * sizeof(float));
+        memcpy(excitation[E_ON_BEFORE + ch], before, (size_t)l->width * sizeof(float));
+    }
+    for (int i = 0; i < E_ROWS && c->lgmds_read_lamina; i++)
+        replicate_margins(excitation[i], l->width, c->reach[ADAPTED]);
+}
+
+static float *excitation_of(const scratch *k, int source, int channel, int before, int y) {
+    return row_of(&k->excitation[source][before ? E_ON_BEFORE + channel : channel], y);
 }
 
 static float *weighed_of(const scratch *k, int set, int y) {
@@ -144,8 +159,8 @@ static void set_row(const constants *c, scratch *k, const step_plan *p, int set,
     const inhibition_set *q = &p->set[set];
     int s = q->spacing, mid = y - s, height = c->l->height;
     if (y < height)
-        weigh_row(c->n, q, row_of(excitation_of(k, q->source, q->channel, 0), y),
-                  row_of(excitation_of(k, q->source, q->channel, 1), y), weighed_of(k, set, y));
+        weigh_row(c->n, q, excitation_of(k, q->source, q->channel, 0, y),
+                  excitation_of(k, q->source, q->channel, 1, y), weighed_of(k, set, y));
     if (mid < 0) return;
     inhibition_row(c->n, weighed_of(k, set, mid), weighed_of(k, set, clamp(mid - s, height)),
                    weighed_of(k, set, clamp(y, height)), k->inhibition[set]);
@@ -170,7 +185,7 @@ static void summation_row(const constants *c, scratch *k, const step_plan *p, in
         float *sums = sums_of(k, j, y);
         channel_rows channels[2];
         for (int ch = 0; ch < 2; ch++) {
-            channels[ch].excitation = row_of(excitation_of(k, l->reads[j], ch, 0), y);
+            channels[ch].excitation = excitation_of(k, l->reads[j], ch, 0, y);
             channels[ch].inhibition = q->set[ch] == NO_SET ? NULL : k->inhibition[q->set[ch]];
         }
         sum_row(c->n, q, channels, sums);
@@ -191,10 +206,10 @@ static void usual_row(const constants *c, scratch *k, const step_plan *p, int y)
     const inhibition_set *on = &p->set[0], *off = &p->set[1];
     int s = on->spacing, mid = y - s, top = mid - s;
     usual_rows r = {
-        .on = {row_of(excitation_of(k, on->source, ON, 0), y), row_of(excitation_of(k, on->source, ON, 1), y)},
-        .off = {row_of(excitation_of(k, on->source, OFF, 0), y), row_of(excitation_of(k, on->source, OFF, 1), y)},
-        .on_middle = row_of(excitation_of(k, on->source, ON, 0), mid),
-        .off_middle = row_of(excitation_of(k, on->source, OFF, 0), mid),
+        .on = {excitation_of(k, on->source, ON, 0, y), excitation_of(k, on->source, ON, 1, y)},
+        .off = {excitation_of(k, on->source, OFF, 0, y), excitation_of(k, on->source, OFF, 1, y)},
+        .on_middle = excitation_of(k, on->source, ON, 0, mid),
+        .off_middle = excitation_of(k, on->source, OFF, 0, mid),
         .weighed = row_of(k->weighed, y),
         .middle = row_of(k->weighed, mid),
         .above = row_of(k->weighed, top),
@@ -305,8 +320,8 @@ static void push_row(const constants *c, scratch *k, const step_plan *p, int y) 
 static void begin(const constants *c, scratch *k, const step_plan *p) {
     vd none = {0};
     k->usual = what_is_usual(c, p);
-    for (int ch = 0; ch < 2; ch++)
-        for (int y = 0; y < (int)k->adapted[ch].rows; y++) zero_left(row_of(&k->adapted[ch], y), c->l->margin);
+    zero_margins(&k->adapted, c->l->margin);
+    for (int ch = 0; ch < 2; ch++) zero_margins(&k->apart[ch], c->l->margin);
     k->hs = none;
     for (int j = 0; j < 2; j++) {
         k->total[j] = none;

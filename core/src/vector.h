@@ -46,6 +46,8 @@ INLINE vf vf_all(float x) { return _mm512_set1_ps(x); }
 INLINE vf vf_max(vf a, vf b) { return _mm512_max_ps(a, b); }
 INLINE vf vf_min(vf a, vf b) { return _mm512_min_ps(a, b); }
 INLINE vf vf_abs(vf a) { return _mm512_abs_ps(a); }
+INLINE vf vf_xor(vf a, vf b) { return _mm512_xor_ps(a, b); }
+INLINE vf vf_sign(vf a) { return _mm512_and_ps(a, _mm512_set1_ps(-0.0f)); }
 INLINE vm vf_ge(vf a, vf b) { return _mm512_cmp_ps_mask(a, b, _CMP_GE_OQ); }
 INLINE vm vf_gt(vf a, vf b) { return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ); }
 INLINE vm vm_and(vm a, vm b) { return (vm)(a & b); }
@@ -73,6 +75,8 @@ INLINE vf vf_all(float x) { return _mm256_set1_ps(x); }
 INLINE vf vf_max(vf a, vf b) { return _mm256_max_ps(a, b); }
 INLINE vf vf_min(vf a, vf b) { return _mm256_min_ps(a, b); }
 INLINE vf vf_abs(vf a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+INLINE vf vf_xor(vf a, vf b) { return _mm256_xor_ps(a, b); }
+INLINE vf vf_sign(vf a) { return _mm256_and_ps(a, _mm256_set1_ps(-0.0f)); }
 INLINE vm vf_ge(vf a, vf b) { return _mm256_cmp_ps(a, b, _CMP_GE_OQ); }
 INLINE vm vf_gt(vf a, vf b) { return _mm256_cmp_ps(a, b, _CMP_GT_OQ); }
 INLINE vm vm_and(vm a, vm b) { return _mm256_and_ps(a, b); }
@@ -106,6 +110,8 @@ INLINE vf vf_all(float x) { return _mm_set1_ps(x); }
 INLINE vf vf_max(vf a, vf b) { return _mm_max_ps(a, b); }
 INLINE vf vf_min(vf a, vf b) { return _mm_min_ps(a, b); }
 INLINE vf vf_abs(vf a) { return _mm_andnot_ps(_mm_set1_ps(-0.0f), a); }
+INLINE vf vf_xor(vf a, vf b) { return _mm_xor_ps(a, b); }
+INLINE vf vf_sign(vf a) { return _mm_and_ps(a, _mm_set1_ps(-0.0f)); }
 INLINE vm vf_ge(vf a, vf b) { return _mm_cmpge_ps(a, b); }
 INLINE vm vf_gt(vf a, vf b) { return _mm_cmpgt_ps(a, b); }
 INLINE vm vm_and(vm a, vm b) { return _mm_and_ps(a, b); }
@@ -145,6 +151,12 @@ INLINE vf vf_all(float x) { return vdupq_n_f32(x); }
 INLINE vf vf_max(vf a, vf b) { return vmaxq_f32(a, b); }
 INLINE vf vf_min(vf a, vf b) { return vminq_f32(a, b); }
 INLINE vf vf_abs(vf a) { return vabsq_f32(a); }
+INLINE vf vf_xor(vf a, vf b) {
+    return vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a), vreinterpretq_u32_f32(b)));
+}
+INLINE vf vf_sign(vf a) {
+    return vreinterpretq_f32_u32(vandq_u32(vreinterpretq_u32_f32(a), vdupq_n_u32(0x80000000u)));
+}
 INLINE vm vf_ge(vf a, vf b) { return vcgeq_f32(a, b); }
 INLINE vm vf_gt(vf a, vf b) { return vcgtq_f32(a, b); }
 INLINE vm vm_and(vm a, vm b) { return vandq_u32(a, b); }
@@ -183,6 +195,8 @@ INLINE vf vf_all(float x) { return x; }
 INLINE vf vf_max(vf a, vf b) { return a > b ? a : b; }
 INLINE vf vf_min(vf a, vf b) { return a < b ? a : b; }
 INLINE vf vf_abs(vf a) { return fabsf(a); }
+INLINE vf vf_xor(vf a, vf sign) { return sign == 0.0f && !signbit(sign) ? a : -a; }
+INLINE vf vf_sign(vf a) { return a < 0.0f ? -0.0f : 0.0f; }
 INLINE vm vf_ge(vf a, vf b) { return a >= b; }
 INLINE vm vf_gt(vf a, vf b) { return a > b; }
 INLINE vm vm_and(vm a, vm b) { return a & b; }
