@@ -72,8 +72,12 @@ class CoreNetwork:
         self._refs = {dtype: ctypes.byref(images) for dtype, images in self._staged.items()}
         self._copied = math.prod(shape) <= COPIED_BYTES
         self._reading = bytearray(READING.size)
-        self._reading_at = ctypes.addressof((ctypes.c_char * READING.size).from_buffer(self._reading))
         self._net_at = ctypes.addressof(self._net)
+        # Arguments made once and a function that does not convert them: the call costs half.
+        self._step = self._core["lobula_step"]
+        self._time_s = ctypes.c_double()
+        self._net_ref = ctypes.byref(self._net)
+        self._reading_ref = ctypes.byref((ctypes.c_char * READING.size).from_buffer(self._reading))
 
     def use(self, workspace: Workspace) -> None:
         """Work in ``workspace`` from now on."""
@@ -104,11 +108,13 @@ class CoreNetwork:
             at = ctypes.byref(pictures)
         maps = {name: np.empty(self.shape, np.float32) for name in taps} if taps else {}
         pointers = _pointers(maps) if taps else None
-        status = self._core.lobula_step(self._net_at, at, time_s, turning, self._reading_at, pointers)
+        self._time_s.value = time_s
+        status = self._step(self._net_ref, at, self._time_s, 1 if turning else 0, self._reading_ref, pointers)
         if status:
             raise RuntimeError(f"the C core failed with code {status}")
-        t, lgmd1, lgmd2, right, left, *spikes, collision, state = READING.unpack(self._reading)
-        return Reading(t, lgmd1, lgmd2, right, left, Spikes(*spikes), collision != 0, STATES[state], maps)
+        *potentials, s1, s2, s3, s4, collision, state = READING.unpack(self._reading)
+        spikes = tuple.__new__(Spikes, (s1, s2, s3, s4))  # what Spikes(...) does, without its detour through Python
+        return tuple.__new__(Reading, (*potentials, spikes, collision != 0, STATES[state], maps))
 
     def run_block(
         self, images: NDArray[Any], times_s: NDArray[np.float64], turning: NDArray[np.bool_] | None = None

@@ -123,7 +123,7 @@ class Network:
             if not (isinstance(yaw_rate_deg_s, Real) and math.isfinite(yaw_rate_deg_s)):
                 raise ParameterError(f"Network.step: yaw_rate_deg_s = {yaw_rate_deg_s!r}: must be a finite number")
             turning = turning or abs(yaw_rate_deg_s) > self.params.decision.turning_deg_s
-        reading = self._streams[0].step(image, time_s, turning=bool(turning), taps=taps)
+        reading = self._streams[0].step(image, time_s, turning=turning, taps=taps)
         self._last_s[0] = time_s
         self._frames[0] += 1
         return reading
