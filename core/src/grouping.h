@@ -48,11 +48,6 @@ static void column_row(int n, const float *above, const float *middle, const flo
         vf_store(column + x, vf_load(above + x * SUMS) + vf_load(middle + x * SUMS) + vf_load(below + x * SUMS));
 }
 
-typedef struct {
-    vf strongest;
-    float *list; /* its end */
-} grouped;
-
 /* One LGMD's row: S, sums of three cells of a column, and what passes so far. */
 typedef struct {
     const float *sum, *column;

@@ -148,7 +148,8 @@ static void process(call *c, picture image, double time_s, int turning, lobula_r
     }
     picture previous = c->waiting ? c->step[c->waiting - 1].rows.image : luma_of(s);
     change_summary about = c->k->summarise(c->e, image, previous);
-    double dt_ms = clock_advances(&s->params.clock, now, time_s, about.mean_abs, about.max_abs);
+    double largest = about.mean_abs < s->params.clock.repeat_mean_grey ? c->k->largest_change(c->e, image, previous) : 0.0;
+    double dt_ms = clock_advances(&s->params.clock, now, time_s, about.mean_abs, largest);
     if (dt_ms < 0.0) {
         flush(c);
         note_turning(s, time_s, turning);

@@ -64,21 +64,19 @@ static void retina_row_alone(int width, const step_plan *p, const char *image, c
 }
 
 typedef struct {
-    vf sum, magnitude, highest;
+    vf sum, magnitude;
 } row_change;
 
 INLINE void add_change(row_change *r, vf change) {
-    vf magnitude = vf_abs(change);
     r->sum += change;
-    r->magnitude += magnitude;
-    r->highest = vf_max(r->highest, magnitude);
+    r->magnitude += vf_abs(change);
 }
 
 enum { EXACT_SUM = 256 }; /* changes that are added up in float before they join a double */
 
-/* model.retina.change_statistics, less the counts */
+/* model.retina.change_statistics, what every step needs of it */
 INLINE change_summary summarise_as(extent e, picture image, int type, picture previous, int type_before) {
-    const row_change nothing = {vf_all(0.0f), vf_all(0.0f), vf_all(0.0f)};
+    const row_change nothing = {vf_all(0.0f), vf_all(0.0f)};
     vd sum = {0}, magnitude = {0};
     row_change r = nothing;
     int whole = e.width / LANES * LANES, added = 0;
@@ -91,12 +89,12 @@ INLINE change_summary summarise_as(extent e, picture image, int type, picture pr
         if (added > EXACT_SUM * LANES - e.width || y == e.height - 1) {
             vd_add(&sum, r.sum);
             vd_add(&magnitude, r.magnitude);
-            r.sum = r.magnitude = nothing.sum;
+            r = nothing;
             added = 0;
         }
     }
     double pixels = (double)e.width * (double)e.height;
-    change_summary s = {vd_total(&sum) / pixels, vd_total(&magnitude) / pixels, (double)vf_highest(r.highest)};
+    change_summary s = {vd_total(&sum) / pixels, vd_total(&magnitude) / pixels};
     return s;
 }
 
@@ -110,6 +108,21 @@ static change_summary summarise(extent e, picture image, picture previous) {
 INLINE double pixel(const picture *p, int y, int x) {
     const char *row = picture_row(p, y);
     return p->type == LOBULA_UINT8 ? (double)((const uint8_t *)row)[x] : (double)((const float *)(const void *)row)[x];
+}
+
+/* The largest magnitude; asked for only where the mean says that the picture could be a repeat. */
+static double largest_change(extent e, picture image, picture previous) {
+    vf highest = vf_all(0.0f);
+    int whole = e.width / LANES * LANES, now_type = image.type, before_type = previous.type;
+    for (int y = 0; y < e.height; y++) {
+        const char *now = picture_row(&image, y), *before = picture_row(&previous, y);
+        for (int x = 0; x < whole; x += LANES)
+            highest = vf_max(highest, vf_abs(pixels_at(now, now_type, x) - pixels_at(before, before_type, x)));
+        if (whole < e.width)
+            highest = vf_max(highest, vf_abs(last_pixels(now, now_type, whole, e.width) -
+                                             last_pixels(before, before_type, whole, e.width)));
+    }
+    return (double)vf_highest(highest);
 }
 
 typedef struct {

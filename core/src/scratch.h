@@ -19,6 +19,15 @@ typedef struct {
 
 enum { E_ON, E_OFF, E_ON_BEFORE, E_OFF_BEFORE, E_ROWS };
 
+/* The grouping of one LGMD so far: the largest 3 x 3 sums, and the end of its list. */
+typedef struct {
+    vf strongest;
+    float *list;
+} grouped;
+
+/* What usual.h can do: nothing; the LGMDs of the presets; those with plain gains; those with one bias besides. */
+typedef enum { UNUSUAL, USUAL, PLAIN, PLAIN_SAME } how_usual;
+
 typedef struct {
     ring change; /* as many rows as the DoG looks at, not a power of two; see window_of */
     ring inner, outer; /* blurred down the columns */
@@ -30,9 +39,9 @@ typedef struct {
     ring sums; /* of both LGMDs, see grouping.h */
     ring column[2]; /* three rows of the summation, added up */
     float *list[2]; /* vectors of grouped cells that may reach the threshold */
-    size_t listed[2];
-    enum { UNUSUAL, USUAL, ALIKE } usual; /* whether usual.h can do the LGMDs */
-    float strongest[2]; /* largest 3 x 3 sum so far */
+    grouped grouped[2];
+    float limit[2]; /* what such a cell must reach, as far as is known */
+    how_usual usual;
     vd hs;
     vd total[2];
 } scratch;

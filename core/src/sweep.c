@@ -218,23 +218,24 @@ static void usual_row(const constants *c, scratch *k, const step_plan *p, int y)
         .sums_above = row_of(&k->sums, top - s),
         .column = {row_of(&k->column[0], top), row_of(&k->column[1], top)},
     };
-    if (k->usual == ALIKE)
-        usual_row_as(c->n, s, on, on, p->lgmd, &r);
-    else
-        usual_row_as(c->n, s, on, off, p->lgmd, &r);
+    switch (k->usual) {
+    case PLAIN_SAME: usual_row_as(c->n, s, on, on, p->lgmd, &r, 1, 1); break;
+    case PLAIN: usual_row_as(c->n, s, on, on, p->lgmd, &r, 1, 0); break;
+    default: usual_row_as(c->n, s, on, off, p->lgmd, &r, 0, 0); break;
+    }
     for (int j = 0; j < 2; j++) replicate_margins(r.column[j], c->l->width, s);
 }
 
-/* Whether usual_row can do it, and with the same weights for both channels. */
-static int what_is_usual(const constants *c, const step_plan *p) {
+/* Whether usual_row can do it, and how much of it is as plain as in the presets. */
+static how_usual usual(const constants *c, const step_plan *p) {
     const lgmd_plan *a = &p->lgmd[0], *b = &p->lgmd[1];
     const inhibition_set *on = &p->set[0], *off = &p->set[1];
-    int can = !p->taps && p->sets == 2 && a->kind == SUM_BOTH && b->kind == SUM_OFF && a->set[ON] == 0 && b->set[OFF] == 1 &&
-              a->grouping && b->grouping && c->l->spacing[0] == c->l->spacing[1];
+    int can = !p->taps && p->sets == 2 && a->kind == SUM_BOTH && b->kind == SUM_OFF && a->set[ON] == 0 &&
+              a->set[OFF] == 1 && b->set[OFF] == 1 && a->grouping && b->grouping && c->l->spacing[0] == c->l->spacing[1];
     if (!can) return UNUSUAL;
-    return memcmp(on->own, off->own, sizeof on->own) == 0 && memcmp(on->across, off->across, sizeof on->across) == 0
-               ? ALIKE
-               : USUAL;
+    int alike = memcmp(on->own, off->own, sizeof on->own) == 0 && memcmp(on->across, off->across, sizeof on->across) == 0;
+    if (!alike || a->gain[ON] != 1.0f || a->gain[OFF] != 1.0f || b->gain[OFF] != 1.0f) return USUAL;
+    return a->bias[OFF] == b->bias[OFF] ? PLAIN_SAME : PLAIN;
 }
 
 static double omega(const lgmd_plan *q, float strongest) {
@@ -245,17 +246,15 @@ static float threshold(const lgmd_plan *q, float strongest) {
     return (float)(q->threshold_grey * omega(q, strongest));
 }
 
-static grouping_rows rows_to_group(const constants *c, const scratch *k, const step_plan *p, int j, int y) {
-    /* a little below, so that rounding on the way to the final threshold loses nothing */
-    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j],
-                       vf_all(0.999999f * threshold(&p->lgmd[j], k->strongest[j]))};
+static grouping_rows rows_to_group(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    /* The limit grows with the strongest sum; now and then is often enough. It stays a little below, so that rounding
+     * on the way to the final threshold loses nothing. */
+    if (y % 8 == 1) k->limit[j] = 0.999999f * threshold(&p->lgmd[j], vf_highest(k->grouped[j].strongest));
+    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(k->limit[j])};
     return r;
 }
 
-static void keep_grouped(const constants *c, scratch *k, const step_plan *p, int j, int y, const grouping_rows *r,
-                         grouped g) {
-    k->listed[j] = (size_t)(g.list - k->list[j]);
-    k->strongest[j] = vf_highest(g.strongest);
+static void grouped_tap(const constants *c, const step_plan *p, int j, int y, const grouping_rows *r) {
     float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, y);
     for (int x = 0; map && x < c->l->width; x++)
         map[x] = r->sum[x / LANES * LANES * SUMS + x % LANES] *
@@ -264,16 +263,13 @@ static void keep_grouped(const constants *c, scratch *k, const step_plan *p, int
 
 static void grouping_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
     grouping_rows r = rows_to_group(c, k, p, j, y);
-    grouped g = {vf_all(k->strongest[j]), k->list[j] + k->listed[j]};
-    keep_grouped(c, k, p, j, y, &r, group_row(c->l->width, &r, g));
+    k->grouped[j] = group_row(c->l->width, &r, k->grouped[j]);
+    grouped_tap(c, p, j, y, &r);
 }
 
 static void grouping_row_of_both(const constants *c, scratch *k, const step_plan *p, int y) {
     grouping_rows r[2] = {rows_to_group(c, k, p, 0, y), rows_to_group(c, k, p, 1, y)};
-    grouped g[2] = {{vf_all(k->strongest[0]), k->list[0] + k->listed[0]},
-                    {vf_all(k->strongest[1]), k->list[1] + k->listed[1]}};
-    group_row_of_both(c->l->width, r, g);
-    for (int j = 0; j < 2; j++) keep_grouped(c, k, p, j, y, &r[j], g[j]);
+    group_row_of_both(c->l->width, r, k->grouped);
 }
 
 /* Row y of what the LGMDs read is there. */
@@ -319,14 +315,15 @@ static void push_row(const constants *c, scratch *k, const step_plan *p, int y) 
 
 static void begin(const constants *c, scratch *k, const step_plan *p) {
     vd none = {0};
-    k->usual = what_is_usual(c, p);
+    k->usual = usual(c, p);
     zero_margins(&k->adapted, c->l->margin);
     for (int ch = 0; ch < 2; ch++) zero_margins(&k->apart[ch], c->l->margin);
     k->hs = none;
     for (int j = 0; j < 2; j++) {
         k->total[j] = none;
-        k->listed[j] = 0;
-        k->strongest[j] = 0.0f;
+        k->grouped[j].strongest = vf_all(0.0f);
+        k->grouped[j].list = k->list[j];
+        k->limit[j] = 0.0f;
     }
 }
 
@@ -335,9 +332,9 @@ static void finish(const constants *c, scratch *k, step_plan *p) {
     p->hs = vd_total(&k->hs);
     for (int j = 0; j < 2; j++) {
         const lgmd_plan *q = &p->lgmd[j];
-        float least = threshold(q, k->strongest[j]);
-        double nine_omega = omega(q, k->strongest[j]);
-        p->total[j] = q->grouping ? total_of_list(k->list[j], k->list[j] + k->listed[j], least) / nine_omega
+        float strongest = vf_highest(k->grouped[j].strongest), least = threshold(q, strongest);
+        double nine_omega = omega(q, strongest);
+        p->total[j] = q->grouping ? total_of_list(k->list[j], k->grouped[j].list, least) / nine_omega
                                   : vd_total(&k->total[j]);
         float *sum = tap_row(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, c->l, 0);
         float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, 0);
@@ -387,6 +384,6 @@ static size_t scratch_bytes(const layout *l) {
 static size_t row_bytes(const layout *l) { return scratch_bytes(l) - 2 * list_floats(l) * sizeof(float); }
 
 const kernels KERNELS = {
-    ISA_NAME, isa_runs,   scratch_bytes, row_bytes, summarise, coverage,
+    ISA_NAME, isa_runs,   scratch_bytes, row_bytes, summarise, largest_change, coverage,
     light,    light_rest, lit_change,    set_luma,  sweep,     in_range, area_average,
 };

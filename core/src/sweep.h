@@ -56,7 +56,7 @@ typedef struct {
 } step_plan;
 
 typedef struct {
-    double mean, mean_abs, max_abs;
+    double mean, mean_abs;
 } change_summary;
 
 typedef struct {
@@ -76,8 +76,9 @@ typedef struct {
     int (*runs)(void);
     size_t (*scratch_bytes)(const layout *l); /* of one frame at work, */
     size_t (*row_bytes)(const layout *l);     /* and without the lists, which are seldom long */
-    /* mean, mean of magnitudes, largest magnitude of image - previous */
+    /* mean and mean magnitude of image - previous; its largest magnitude */
     change_summary (*summarise)(extent e, picture image, picture previous);
+    double (*largest_change)(extent e, picture image, picture previous);
     /* pixels brighter, and darker, by more than half a grey level */
     void (*coverage)(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker);
     light_sums (*light)(extent e, picture image, picture previous, double limit);

@@ -25,8 +25,9 @@ INLINE vf usual_channel(const ring_weights *w, const float *now, const float *be
     return vf_load(middle + OWN * LANES) + vf_load(above + ACROSS * LANES) + r.across;
 }
 
+/* With `plain` gains of 1, and where `same` both LGMDs hear OFF with one bias, there is less to do. */
 INLINE void usual_row_as(int n, int s, const inhibition_set *on, const inhibition_set *off, const lgmd_plan *lgmd,
-                         const usual_rows *rows) {
+                         const usual_rows *rows, int plain, int same) {
     usual_rows q = *rows;
     ring_weights on_weights = weights_of(on), off_weights = weights_of(off);
     vf bias_on = vf_all(lgmd[0].bias[ON]), bias_off = vf_all(lgmd[0].bias[OFF]), bias2 = vf_all(lgmd[1].bias[OFF]);
@@ -37,8 +38,11 @@ INLINE void usual_row_as(int n, int s, const inhibition_set *on, const inhibitio
         vf b = usual_channel(&off_weights, q.off[0] + x, q.off[1] + x, s, q.weighed + at + LANES, q.middle + at + LANES,
                              q.above + at + LANES);
         vf e_on = vf_load(q.on_middle + x), e_off = vf_load(q.off_middle + x);
-        vf one = gain_on * compete(e_on, a, bias_on) + gain_off * compete(e_off, b, bias_off);
-        vf two = gain2 * compete(e_off, b, bias2);
+        vf on_wins = compete(e_on, a, bias_on), off_wins = compete(e_off, b, bias_off);
+        vf one = on_wins + off_wins, two = off_wins;
+        if (!plain) one = gain_on * on_wins + gain_off * off_wins;
+        if (!same) two = compete(e_off, b, bias2);
+        if (!plain) two = gain2 * two;
         vf_store(q.sums + sums_at, one);
         vf_store(q.sums + sums_at + LANES, two);
         vf_store(q.column[0] + x, vf_load(q.sums_above + sums_at) + vf_load(q.sums_middle + sums_at) + one);
