@@ -23,6 +23,7 @@ test: $(IN)
 lint: $(IN)
 	$(INSTALL) ".[dev]"
 	$(IN) -m ruff check .
+	$(IN) -m ruff format --check .
 	$(IN) -m mypy
 
 clean:

@@ -45,8 +45,9 @@ class BuildCore(build_ext):
             self._compile(target)
         except (OSError, subprocess.CalledProcessError) as error:
             target.unlink(missing_ok=True)
-            warnings.warn(f"the C core was not built ({error}); lobula will run on its slower NumPy reference",
-                          stacklevel=1)
+            warnings.warn(
+                f"the C core was not built ({error}); lobula will run on its slower NumPy reference", stacklevel=1
+            )
 
     def _compile(self, target: Path) -> None:
         compiler = shlex.split(os.environ.get("CC", "cc"))

@@ -44,11 +44,15 @@ def table() -> str:
     """Return one table: every mechanism, whether it is on, its settings, and the origin of each value."""
     chosen = {name: dict(_settings(preset(name))) for name in sorted(BASES, key=lambda name: name != DEFAULT)}
     titles = [f"`{name}`{' (default)' if name == DEFAULT else ''}" for name in chosen]
-    lines = [f"| setting | {' | '.join(titles)} | unit | meaning | where the value comes from |",
-             f"|---|{'---:|' * len(titles)}---|---|---|"]
+    lines = [
+        f"| setting | {' | '.join(titles)} | unit | meaning | where the value comes from |",
+        f"|---|{'---:|' * len(titles)}---|---|---|",
+    ]
     for group, title in MECHANISMS.items():
-        own = {name: {path: at for path, at in settings.items() if path.rpartition(".")[0] == group}
-               for name, settings in chosen.items()}
+        own = {
+            name: {path: at for path, at in settings.items() if path.rpartition(".")[0] == group}
+            for name, settings in chosen.items()
+        }
         lines.append(f"| **{title}** | {' | '.join(_state(group, of) for of in own.values())} | | | |")
         for path in next(iter(own.values())):
             owners = {name: of[path] for name, of in own.items()}

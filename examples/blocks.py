@@ -18,5 +18,7 @@ print(f"one stream of {len(alarm)} frames: first alarm in frame {alarm.argmax()}
 both = np.stack([comes.images[:124], passes.images[:124]])  # (S, T, H, W): two streams that know nothing of each other
 table = lobula.Network().run(both, comes.times_s[:124], threads=2)
 for name, stream in zip(("comes", "passes"), table, strict=True):
-    print(f"{name}: {stream['spikes_lgmd1'].sum()} spikes of LGMD-1, {stream['spikes_lptc_r'].sum()} of LPTC-R, "
-          f"alarm: {bool(stream['collision'].any())}")
+    print(
+        f"{name}: {stream['spikes_lgmd1'].sum()} spikes of LGMD-1, {stream['spikes_lptc_r'].sum()} of LPTC-R, "
+        f"alarm: {bool(stream['collision'].any())}"
+    )

@@ -1,8 +1,8 @@
 """A camera, a clip, a folder of images or, without an argument, a synthetic movie: one loop for all of them.
 
-    python examples/frame_by_frame.py 0            the first camera
-    python examples/frame_by_frame.py clip.mp4
-    python examples/frame_by_frame.py
+python examples/frame_by_frame.py 0            the first camera
+python examples/frame_by_frame.py clip.mp4
+python examples/frame_by_frame.py
 """
 
 import sys

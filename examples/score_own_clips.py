@@ -36,8 +36,10 @@ with tempfile.TemporaryDirectory() as name:
         if isinstance(result, ClipScore):
             scores.append(result)
             says = "no hit" if result.lead_s is None else f"hit {result.lead_s:.2f} s before contact"
-            print(f"{result.label.file:15} {says if result.label.collision else 'nothing comes'}, "
-                  f"{result.false_alarms} false alarms")
+            print(
+                f"{result.label.file:15} {says if result.label.collision else 'nothing comes'}, "
+                f"{result.false_alarms} false alarms"
+            )
         else:
             print(f"{result.label.file}: {result.message}")
 

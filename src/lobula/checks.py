@@ -30,11 +30,13 @@ def require_images(images: Any, ndims: tuple[int, ...], where: str) -> NDArray[A
         wanted = " or ".join({2: "(H, W)", 3: "(T, H, W)", 4: "(S, T, H, W)"}[n] for n in ndims)
         raise ShapeError(f"{where}: shape {a.shape}: must be {wanted} luminance{hint}")
     if (a.ndim >= 3 and a.shape[-1] in (1, 3, 4)) or min(a.shape, default=0) == 0:
-        raise ShapeError(f"{where}: shape {a.shape}: must be luminance of at least {MIN_HEIGHT} rows x "
-                         f"{MIN_WIDTH} columns{hint}")
+        raise ShapeError(
+            f"{where}: shape {a.shape}: must be luminance of at least {MIN_HEIGHT} rows x {MIN_WIDTH} columns{hint}"
+        )
     if a.shape[-2] < MIN_HEIGHT or a.shape[-1] < MIN_WIDTH:
-        raise ShapeError(f"{where}: {a.shape[-1]} x {a.shape[-2]} px (width x height): must be at least "
-                         f"{MIN_WIDTH} x {MIN_HEIGHT}")
+        raise ShapeError(
+            f"{where}: {a.shape[-1]} x {a.shape[-2]} px (width x height): must be at least {MIN_WIDTH} x {MIN_HEIGHT}"
+        )
     if a.dtype == np.uint8:
         return a
     if a.dtype.kind != "f":

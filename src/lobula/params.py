@@ -114,8 +114,9 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
         if is_dataclass(current):
             if not isinstance(value, Mapping):
                 first = next(f.name for f in fields(current) if f.name != "origins")
-                raise ParameterError(f"{where}{name} = {value!r}: is a group of settings, such as "
-                                     f"{where}{name}.{first}")
+                raise ParameterError(
+                    f"{where}{name} = {value!r}: is a group of settings, such as {where}{name}.{first}"
+                )
             changed[name] = with_settings(typing.cast(Params, current), value, source, f"{where}{name}.")
         else:
             changed[name] = _coerce(value, current)

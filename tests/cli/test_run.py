@@ -99,7 +99,8 @@ def test_a_settings_file(call, clip, tmp_path):
     header, *_, summary = call("run", clip, "--json", "--config", "own.toml").records
     assert (header["preset"], summary["collisions"]) == ("paper", 0)
     header, *_, summary = call(
-        "run", clip, "--json", "--config", "own.toml", "--set", "decision.collision_spikes=4").records
+        "run", clip, "--json", "--config", "own.toml", "--set", "decision.collision_spikes=4"
+    ).records
     assert summary["collisions"] == 1
 
 
@@ -107,7 +108,8 @@ def test_the_part_of_the_clip_and_of_the_picture(call, clip):
     summary = call("run", clip, "--json", "--start", "1", "--end", "2", "--stride", "2").records[-1]
     assert summary["frames"] == 15
     header, *_, summary = call(
-        "run", clip, "--json", "--size", "64x48", "--roi", "10,5,80,60", "--max-frames", "7").records
+        "run", clip, "--json", "--size", "64x48", "--roi", "10,5,80,60", "--max-frames", "7"
+    ).records
     assert (header["width"], header["height"], summary["frames"]) == (64, 48, 7)
 
 
@@ -120,8 +122,10 @@ def test_both_engines_agree(call, clip):
 
 
 def test_scaled_kernels_are_in_the_settings(call, clip):
-    hashes = [call("run", clip, "--json", "--size", "198x144", "--max-frames", "5", *more).records[0]["settings_hash"]
-              for more in ([], ["--scale-kernels"])]
+    hashes = [
+        call("run", clip, "--json", "--size", "198x144", "--max-frames", "5", *more).records[0]["settings_hash"]
+        for more in ([], ["--scale-kernels"])
+    ]
     assert hashes[0] != hashes[1]
 
 

@@ -36,9 +36,10 @@ def miss(**more):
 def test_the_window_reaches_from_two_seconds_to_two_frames_before_contact(start, verdict):
     score = score_clip(hit(), trace({start}, 100))
     counts = (score.hit, score.false_alarms, score.late)
-    assert counts == {"hit": (True, 0, 0), "false": (False, 1, 0), "late": (False, 0, 1), "nothing": (False, 0, 0)}[
-        verdict
-    ]
+    assert (
+        counts
+        == {"hit": (True, 0, 0), "false": (False, 1, 0), "late": (False, 0, 1), "nothing": (False, 0, 0)}[verdict]
+    )
     assert score.frames == 66  # contact 60 + 5, and frame 0
 
 

@@ -44,8 +44,12 @@ def stamps(count: int, rate_hz: float = RATE_HZ) -> list[float]:
     return [k / rate_hz for k in range(count)]
 
 
-def run(p: NetworkParams | ReferenceNetwork, images: np.ndarray, times_s: Iterable[float],
-        turning: Sequence[bool] | None = None) -> list[Reading]:
+def run(
+    p: NetworkParams | ReferenceNetwork,
+    images: np.ndarray,
+    times_s: Iterable[float],
+    turning: Sequence[bool] | None = None,
+) -> list[Reading]:
     """Readings of every picture; by a fresh network where settings are given."""
     net = p if isinstance(p, ReferenceNetwork) else ReferenceNetwork(p, images.shape[1:])
     turns = turning or [False] * len(images)

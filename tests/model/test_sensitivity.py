@@ -36,8 +36,16 @@ def test_more_is_never_less_ready(a, b, spikes, weight):
 
 def test_nothing_but_the_decision_changes():
     changed = with_sensitivity(preset(), 0.9)
-    back = with_settings(changed, {"decision": {
-        "collision_spikes": preset().decision.collision_spikes, "lptc_weight": preset().decision.lptc_weight}}, "test")
+    back = with_settings(
+        changed,
+        {
+            "decision": {
+                "collision_spikes": preset().decision.collision_spikes,
+                "lptc_weight": preset().decision.lptc_weight,
+            }
+        },
+        "test",
+    )
     assert settings_hash(back) == settings_hash(preset())
 
 

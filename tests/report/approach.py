@@ -13,27 +13,58 @@ FRAMES = 30
 GREY = 120
 COLLISION = range(18, 24)
 HEADER: dict[str, Any] = {
-    "type": "header", "version": "0.1.0", "preset": "default", "neurons": "all", "settings_hash": "0123456789ab",
-    "source": "clip.mp4", "width": 99, "height": 72, "fps": 10.0, "thresholds": dict(zip(NEURONS, (0.7, 0.7, 0.2, 0.2),
-                                                                                         strict=True)),
-    "settings": [{"path": "lamina.dog.sigma_px", "value": 2.0, "unit": "px", "meaning": "width of the inner field",
-                  "source": "published code"}],
+    "type": "header",
+    "version": "0.1.0",
+    "preset": "default",
+    "neurons": "all",
+    "settings_hash": "0123456789ab",
+    "source": "clip.mp4",
+    "width": 99,
+    "height": 72,
+    "fps": 10.0,
+    "thresholds": dict(zip(NEURONS, (0.7, 0.7, 0.2, 0.2), strict=True)),
+    "settings": [
+        {
+            "path": "lamina.dog.sigma_px",
+            "value": 2.0,
+            "unit": "px",
+            "meaning": "width of the inner field",
+            "source": "published code",
+        }
+    ],
 }
-SUMMARY: dict[str, Any] = {"type": "summary", "status": "ok", "frames": FRAMES, "dropped": 0, "collisions": 1,
-                           "duration_s": 3.0, "ms_per_frame": 0.31}
+SUMMARY: dict[str, Any] = {
+    "type": "summary",
+    "status": "ok",
+    "frames": FRAMES,
+    "dropped": 0,
+    "collisions": 1,
+    "duration_s": 3.0,
+    "ms_per_frame": 0.31,
+}
 
 
 def reading(index: int) -> Reading:
     alarm = index in COLLISION
     spikes = Spikes(2, 1, 0, 0) if alarm else Spikes(lptc_l=5 if index == 27 else 0)
-    return Reading(index / 10, 0.9 if alarm else 0.55, 0.8 if alarm else 0.5, 0.1, -0.6 if index == 27 else 0.0,
-                   spikes, alarm, "warming_up" if index < 3 else "ok")
+    return Reading(
+        index / 10,
+        0.9 if alarm else 0.55,
+        0.8 if alarm else 0.5,
+        0.1,
+        -0.6 if index == 27 else 0.0,
+        spikes,
+        alarm,
+        "warming_up" if index < 3 else "ok",
+    )
 
 
 def table() -> NDArray[np.void]:
     """The trace this run must leave, written out without the code under test."""
-    rows = [(i, r.time_s, r.lgmd1, r.lgmd2, r.lptc_r, r.lptc_l, *r.spikes, r.collision, r.state)
-            for i, r in ((i, reading(i)) for i in range(FRAMES))]
+    rows = [
+        (i, r.time_s, r.lgmd1, r.lgmd2, r.lptc_r, r.lptc_l, *r.spikes, r.collision, r.state)
+        for i, r in ((i, reading(i)) for i in range(FRAMES))
+    ]
     return np.array(rows, TRACE_DTYPE)
 
 
@@ -46,8 +77,18 @@ def events(index: int) -> list[dict[str, Any]]:
     return {
         0: [{"type": "state", "state": "warming_up", "phase": "start", **stamp}],
         3: [{"type": "state", "state": "warming_up", "phase": "end", **stamp}],
-        18: [{"type": "collision", "phase": "start", "id": 1, **stamp, "lgmd1": 0.9, "lgmd2": 0.8, "lptc_r": 0.1,
-              "lptc_l": 0.0}],
+        18: [
+            {
+                "type": "collision",
+                "phase": "start",
+                "id": 1,
+                **stamp,
+                "lgmd1": 0.9,
+                "lgmd2": 0.8,
+                "lptc_r": 0.1,
+                "lptc_l": 0.0,
+            }
+        ],
         24: [{"type": "collision", "phase": "end", "id": 1, **stamp, "peak_frame": 20}],
     }.get(index, [])
 

@@ -50,8 +50,16 @@ for sink in TraceWriter("t.csv"), TraceWriter("t.jsonl"), AnnotatedVideo("out.mp
 def child(code: str, folder: Path, **more: object) -> subprocess.CompletedProcess[str]:
     tests = Path(__file__).parents[1]
     path = os.pathsep.join([str(tests), str(Path(lobula.__file__).parents[1])])
-    return subprocess.run([sys.executable, "-c", code], cwd=folder, env={**os.environ, "PYTHONPATH": path},
-                          capture_output=True, text=True, timeout=60, check=False, **more)  # type: ignore[call-overload]
+    return subprocess.run(
+        [sys.executable, "-c", code],
+        cwd=folder,
+        env={**os.environ, "PYTHONPATH": path},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+        **more,
+    )  # type: ignore[call-overload]
 
 
 def frames_of(path: Path) -> int:

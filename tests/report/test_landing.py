@@ -39,9 +39,13 @@ def test_failure_leaves_the_old_file_and_no_litter(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("error", "words"),
-    [(FileNotFoundError(2, ""), "no such folder out"), (OSError(28, ""), "the disk is full"),
-     (PermissionError(13, ""), "no permission"), (IsADirectoryError(21, ""), "it is a folder"),
-     (OSError(5, "Input/output error"), "Input/output error")],
+    [
+        (FileNotFoundError(2, ""), "no such folder out"),
+        (OSError(28, ""), "the disk is full"),
+        (PermissionError(13, ""), "no permission"),
+        (IsADirectoryError(21, ""), "it is a folder"),
+        (OSError(5, "Input/output error"), "Input/output error"),
+    ],
 )
 def test_errors_become_one_line_that_names_the_file(error: OSError, words: str) -> None:
     with pytest.raises(OutputError) as caught, writing(Path("out/t.csv")):

@@ -25,7 +25,7 @@ def boxes(data: bytes) -> list[str]:
     """Names of the top-level boxes of an MP4, in order (ISO/IEC 14496-12: size, then name)."""
     names, at = [], 0
     while at < len(data):
-        size, name = struct.unpack(">I4s", data[at: at + 8])
+        size, name = struct.unpack(">I4s", data[at : at + 8])
         names.append(name.decode())
         at += size
     return names

@@ -55,9 +55,23 @@ def test_page_tells_what_happened(tmp_path: Path) -> None:
     play(ReportPage(tmp_path / "out"))
     page = Page(tmp_path / "out" / "index.html")
     for words in (
-        "clip.mp4", "1collision", "30frames", "3.0 s", "0.31 ms", "Collision 1", "1.800 s to 2.400 s, 0.600 s long",
-        "frame 18, peak at frame 20", "Warming up", "0.000 s to 0.300 s", "99 x 72 px", "0123456789ab",
-        "lamina.dog.sigma_px", "width of the inner field", "published code", "LGMD-1 0.90", "12 spikes",
+        "clip.mp4",
+        "1collision",
+        "30frames",
+        "3.0 s",
+        "0.31 ms",
+        "Collision 1",
+        "1.800 s to 2.400 s, 0.600 s long",
+        "frame 18, peak at frame 20",
+        "Warming up",
+        "0.000 s to 0.300 s",
+        "99 x 72 px",
+        "0123456789ab",
+        "lamina.dog.sigma_px",
+        "width of the inner field",
+        "published code",
+        "LGMD-1 0.90",
+        "12 spikes",
     ):
         assert words in page.text, words
     assert np.array_equal(read_trace(tmp_path / "out" / "trace.csv"), table())
@@ -67,8 +81,12 @@ def test_page_tells_what_happened(tmp_path: Path) -> None:
 def test_page_needs_nothing_else(tmp_path: Path) -> None:
     play(ReportPage(tmp_path))
     page = Page(tmp_path / "index.html")
-    outside = [value for _, attributes in page.tags for name, value in attributes.items()
-               if name in ("src", "href", "srcset", "data", "poster") and not str(value).startswith("data:image/jpeg")]
+    outside = [
+        value
+        for _, attributes in page.tags
+        for name, value in attributes.items()
+        if name in ("src", "href", "srcset", "data", "poster") and not str(value).startswith("data:image/jpeg")
+    ]
     assert outside == ["trace.csv"]
     text = (tmp_path / "index.html").read_text()
     assert "url(" not in text
@@ -79,8 +97,10 @@ def test_page_needs_nothing_else(tmp_path: Path) -> None:
 
 def test_curves_pass_where_the_potentials_do(tmp_path: Path) -> None:
     play(ReportPage(tmp_path))
-    lgmd1, *_, lptc_l = [[tuple(map(float, point.split(","))) for point in str(line["points"]).split()]
-                         for line in Page(tmp_path / "index.html").all("polyline")]
+    lgmd1, *_, lptc_l = [
+        [tuple(map(float, point.split(","))) for point in str(line["points"]).split()]
+        for line in Page(tmp_path / "index.html").all("polyline")
+    ]
     # 30 frames of 0.1 s over 1000 units; 3 units of margin, 94 for the range.
     assert lgmd1[20] == pytest.approx((20 / 30 * 1000, 3 + 94 * (1 - 0.9) / 0.5), abs=0.06)
     assert lptc_l[27] == pytest.approx((900, 3 + 94 * 0.6), abs=0.06)
@@ -88,8 +108,12 @@ def test_curves_pass_where_the_potentials_do(tmp_path: Path) -> None:
 
 def test_hostile_names_are_only_text(tmp_path: Path) -> None:
     evil = '<script>alert("1")</script><img src=x onerror=alert(1)>&"\'.mp4'
-    header = {**HEADER, "source": evil, "preset": evil,
-              "settings": [{"path": evil, "value": evil, "unit": evil, "meaning": evil, "source": evil}]}
+    header = {
+        **HEADER,
+        "source": evil,
+        "preset": evil,
+        "settings": [{"path": evil, "value": evil, "unit": evil, "meaning": evil, "source": evil}],
+    }
     sink = ReportPage(tmp_path)
     sink.open(header)
     sink.frame(0, reading(0), picture)

@@ -12,17 +12,20 @@ from lobula.types import NEURONS, STATES
 # Machado, Oliveira & Fernandes 2009, severity 1.0, linear RGB; the identity stands for full colour vision.
 SEEN_AS = {
     "all": np.eye(3),
-    "protanopia": np.array([[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216],
-                            [-0.003882, -0.048116, 1.051998]]),
-    "deuteranopia": np.array([[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413],
-                              [-0.011820, 0.042940, 0.968881]]),
-    "tritanopia": np.array([[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602],
-                            [0.004733, 0.691367, 0.303900]]),
+    "protanopia": np.array(
+        [[0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998]]
+    ),
+    "deuteranopia": np.array(
+        [[0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881]]
+    ),
+    "tritanopia": np.array(
+        [[1.255528, -0.076749, -0.178779], [-0.078411, 0.930809, 0.147602], [0.004733, 0.691367, 0.303900]]
+    ),
 }
 
 
 def linear(colour: str) -> NDArray[np.float64]:
-    c = np.array([int(colour[i: i + 2], 16) for i in (1, 3, 5)]) / 255
+    c = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
     return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
 
 
@@ -61,4 +64,8 @@ def test_thresholds_are_the_papers_unless_given() -> None:
     assert thresholds({}) == {"lgmd1": 0.7, "lgmd2": 0.7, "lptc_r": 0.2, "lptc_l": -0.2}
     for sign in (1, -1):
         assert thresholds({"thresholds": {"lgmd1": 0.8, "lptc_l": sign * 0.3}}) == {
-            "lgmd1": 0.8, "lgmd2": 0.7, "lptc_r": 0.2, "lptc_l": -0.3}
+            "lgmd1": 0.8,
+            "lgmd2": 0.7,
+            "lptc_r": 0.2,
+            "lptc_l": -0.3,
+        }

@@ -31,15 +31,22 @@ def steady(count: int = 91, hz: float = 30.0, **changes: float) -> list[Reading]
 
 def rows_of(canvas: NDArray[np.uint8], neuron: str, column: int) -> list[int]:
     """Rows, from the top of a neuron's plot, that hold its full colour."""
-    plot = canvas[TOPS[neuron]: TOPS[neuron] + 40, column].astype(int)
+    plot = canvas[TOPS[neuron] : TOPS[neuron] + 40, column].astype(int)
     return list(np.flatnonzero(np.abs(plot - rgb(DARK.neurons[neuron])).max(axis=1) < 60))
 
 
 # 37 pixels for the range, 1 above it: 0.5 -> row 38, 0.75 -> 1 + 37/2, 1.0 -> row 1; LPTC-L hangs from its 0.
 @pytest.mark.parametrize(
     ("neuron", "value", "row"),
-    [("lgmd1", 0.75, 19.5), ("lgmd2", 0.9, 8.4), ("lptc_r", 0.5, 19.5), ("lptc_r", 0.0, 38), ("lptc_l", -0.5, 19.5),
-     ("lptc_l", -0.25, 10.25)])
+    [
+        ("lgmd1", 0.75, 19.5),
+        ("lgmd2", 0.9, 8.4),
+        ("lptc_r", 0.5, 19.5),
+        ("lptc_r", 0.0, 38),
+        ("lptc_l", -0.5, 19.5),
+        ("lptc_l", -0.25, 10.25),
+    ],
+)
 def test_potential_sets_the_row(neuron: str, value: float, row: float) -> None:
     canvas = drawn(steady(**{neuron: value}))
     for column in (LEFT + 5, 350, RIGHT):
@@ -56,7 +63,7 @@ def test_newest_is_at_the_right_and_old_ones_leave() -> None:
 
 def test_before_the_first_reading_there_is_nothing() -> None:
     canvas = drawn(steady(46))  # 1.5 s: half of the span
-    empty = canvas[TOPS["lgmd1"] + 26: TOPS["lgmd1"] + 39, LEFT: LEFT + 250]  # below the threshold's line
+    empty = canvas[TOPS["lgmd1"] + 26 : TOPS["lgmd1"] + 39, LEFT : LEFT + 250]  # below the threshold's line
     assert (empty == rgb(DARK.panel)).all()
     assert rows_of(canvas, "lgmd1", LEFT + 280)
 
@@ -68,7 +75,7 @@ def test_a_spike_is_a_tick_at_its_time_and_more_are_taller(hz: float) -> None:
     one, many = count // 3, 2 * count // 3
     readings[one] = readings[one]._replace(spikes=Spikes(lgmd1=1))
     readings[many] = readings[many]._replace(spikes=Spikes(lgmd1=3))
-    band = drawn(readings)[TOPS["lgmd1"] + 41: TOPS["lgmd1"] + 54, LEFT: RIGHT + 1]
+    band = drawn(readings)[TOPS["lgmd1"] + 41 : TOPS["lgmd1"] + 54, LEFT : RIGHT + 1]
     inked = (band == rgb(DARK.neurons["lgmd1"])).all(axis=2)
     heights, columns = inked.sum(axis=0), np.flatnonzero(inked.any(axis=0))
     for index, height in ((one, 4), (many, 8)):  # 4 log2(1 + n)
@@ -81,7 +88,7 @@ def test_a_collision_is_shaded_while_it_lasts() -> None:
     readings = steady()
     for k in range(45, 60):
         readings[k] = readings[k]._replace(collision=True)
-    row = drawn(readings)[TOPS["lgmd2"] + 30, LEFT: RIGHT + 1].astype(int)
+    row = drawn(readings)[TOPS["lgmd2"] + 30, LEFT : RIGHT + 1].astype(int)
     red = row[:, 0] > row[:, 1] + 40
     assert red[265:345].all()  # columns of the frames 46 to 59: 521/90 pixels each
     assert not red[:255].any()
@@ -92,6 +99,17 @@ def test_the_drawing_never_fails() -> None:
     rng = np.random.default_rng(5)
     for count in (1, 2, 3, 400):
         times_s = np.cumsum(rng.uniform(1e-6, 5.0, count)) - 3.0
-        drawn([Reading(float(t), *rng.uniform(0.5, 1, 2), rng.random(), -rng.random(),
-                       Spikes(*map(int, rng.integers(0, 60, len(NEURONS)))), bool(rng.random() < 0.5), "flash")
-               for t in times_s])
+        drawn(
+            [
+                Reading(
+                    float(t),
+                    *rng.uniform(0.5, 1, 2),
+                    rng.random(),
+                    -rng.random(),
+                    Spikes(*map(int, rng.integers(0, 60, len(NEURONS)))),
+                    bool(rng.random() < 0.5),
+                    "flash",
+                )
+                for t in times_s
+            ]
+        )

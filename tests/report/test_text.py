@@ -20,7 +20,7 @@ def test_a_capital_i_is_one_upright_stroke() -> None:
 
 def test_an_l_turns_right_at_the_foot() -> None:
     mask = text_mask("L", 24.0)
-    assert mask[6:20, mask.shape[1] // 2:].max() == 0
+    assert mask[6:20, mask.shape[1] // 2 :].max() == 0
     assert mask[28, mask.shape[1] // 2] == 1
 
 

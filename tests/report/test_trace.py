@@ -16,8 +16,10 @@ from lobula.types import TRACE_DTYPE, Reading, Spikes
 
 from .approach import FRAMES, HEADER, SUMMARY, play, table
 
-CONTRACT = ("frame,time_s,lgmd1,lgmd2,lptc_r,lptc_l,spikes_lgmd1,spikes_lgmd2,spikes_lptc_r,spikes_lptc_l,"
-            "collision,state")  # as DESIGN.md prints it
+CONTRACT = (
+    "frame,time_s,lgmd1,lgmd2,lptc_r,lptc_l,spikes_lgmd1,spikes_lgmd2,spikes_lptc_r,spikes_lptc_l,"
+    "collision,state"
+)  # as DESIGN.md prints it
 
 
 @pytest.mark.parametrize("suffix", TRACE_SUFFIXES)
@@ -51,7 +53,10 @@ def test_about_remembers_the_run(tmp_path: Path, suffix: str) -> None:
     play(TraceWriter(tmp_path / f"t{suffix}"))
     about = read_about(tmp_path / f"t{suffix}")
     assert {key: about[key] for key in ("settings_hash", "version", "source")} == {
-        "settings_hash": "0123456789ab", "version": "0.1.0", "source": "clip.mp4"}
+        "settings_hash": "0123456789ab",
+        "version": "0.1.0",
+        "source": "clip.mp4",
+    }
     assert about["summary"]["status"] == "ok"
     assert "settings" not in about
 
@@ -66,8 +71,9 @@ def test_numbers_survive_to_the_last_bit(tmp_path: Path, value: float, suffix: s
     assert [read_trace(writer.path)[0][i] for i in range(1, 6)] == [value] * 5
 
 
-@pytest.mark.parametrize(("suffix", "left"), [(".csv", "t.csv"), (".jsonl", "t.jsonl"), (".npz", "t.part.csv"),
-                                              (".parquet", "t.part.csv")])
+@pytest.mark.parametrize(
+    ("suffix", "left"), [(".csv", "t.csv"), (".jsonl", "t.jsonl"), (".npz", "t.part.csv"), (".parquet", "t.part.csv")]
+)
 def test_without_close_every_row_is_there(tmp_path: Path, suffix: str, left: str) -> None:
     writer = TraceWriter(tmp_path / f"t{suffix}")
     play(writer, finish=False)
@@ -116,8 +122,10 @@ def test_missing_column_is_named(tmp_path: Path) -> None:
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("bad", ["x,0.1,0.5,0.5,0,0,0,0,0,0,0,ok", "0,0.1,0.5,0.5,0,0,0,0,0,0,2,ok",
-                                 "0,0.1,0.5,0.5,0,0,0,0,0,0,0,sleepy", "0,0.1"])
+@pytest.mark.parametrize(
+    "bad",
+    ["x,0.1,0.5,0.5,0,0,0,0,0,0,0,ok", "0,0.1,0.5,0.5,0,0,0,0,0,0,2,ok", "0,0.1,0.5,0.5,0,0,0,0,0,0,0,sleepy", "0,0.1"],
+)
 def test_bad_row_is_named_by_its_line(tmp_path: Path, bad: str) -> None:
     good = "0,0.1,0.5,0.5,0,0,0,0,0,0,0,ok"
     (tmp_path / "t.csv").write_text(f"{CONTRACT}\n{good}\n{bad}\n{good}\n")

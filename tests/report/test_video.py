@@ -48,8 +48,9 @@ def test_states_are_written_on_the_picture(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("height", "width", "rows"), [(240, 320, 480), (360, 640, 360), (72, 99, 466), (1080, 1920, 360), (1280, 720, 480),
-                                  (32, 641, 32)])
+    ("height", "width", "rows"),
+    [(240, 320, 480), (360, 640, 360), (72, 99, 466), (1080, 1920, 360), (1280, 720, 480), (32, 641, 32)],
+)
 def test_picture_is_scaled_to_fit(tmp_path: Path, height: int, width: int, rows: int) -> None:
     sink = AnnotatedVideo(tmp_path / "out.mp4")
     sink.open(HEADER)

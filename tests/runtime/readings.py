@@ -130,5 +130,7 @@ class Sink:
 
 def frames(count: int, first: int = 0, value=None):
     """Frames at 30 Hz; every picture differs from the one before unless ``value`` fixes its grey."""
-    return [Frame(np.full((72, 99), (i % 250) if value is None else value, np.uint8), i / RATE_HZ, i)
-            for i in range(first, first + count)]
+    return [
+        Frame(np.full((72, 99), (i % 250) if value is None else value, np.uint8), i / RATE_HZ, i)
+        for i in range(first, first + count)
+    ]

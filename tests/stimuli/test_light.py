@@ -30,8 +30,9 @@ def test_patterns_keep_their_mean_and_range(background):
 
 
 def test_stripes_are_the_same_at_twice_the_size():
-    small, large = (stimuli.still(background="stripes", width=99 * k, height=72 * k, quantised=False).images[0]
-                    for k in (1, 2))
+    small, large = (
+        stimuli.still(background="stripes", width=99 * k, height=72 * k, quantised=False).images[0] for k in (1, 2)
+    )
     assert small == pytest.approx(large.reshape(72, 2, 99, 2).mean(axis=(1, 3)), abs=1e-3)
 
 
@@ -51,8 +52,10 @@ def test_flicker_follows_the_sinusoid():
 
 def test_fast_lamps_alias():
     """At 30 Hz a 50 Hz lamp looks like one of 10 Hz run backwards, and a 60 Hz lamp is steady."""
-    at_50, at_10, at_60 = (means(stimuli.flicker(hz=hz, phase_deg=p, quantised=False))
-                           for hz, p in ((50.0, 0.0), (10.0, 180.0), (60.0, 90.0)))
+    at_50, at_10, at_60 = (
+        means(stimuli.flicker(hz=hz, phase_deg=p, quantised=False))
+        for hz, p in ((50.0, 0.0), (10.0, 180.0), (60.0, 90.0))
+    )
     assert at_50 == pytest.approx(at_10, abs=1e-3)
     assert np.ptp(at_60) < 1e-3
 
@@ -96,19 +99,29 @@ def test_held_pictures():
 
 def test_noise_through_a_flickering_scene_is_the_sensor_s():
     """The lamp does not scale the sensor's noise: it is added after it."""
-    movie = stimuli.flicker(hz=0.0, amplitude=1.0, phase_deg=90.0, background_grey=50.0, noise_sigma=3.0,
-                            duration_s=1.0, quantised=False)
+    movie = stimuli.flicker(
+        hz=0.0, amplitude=1.0, phase_deg=90.0, background_grey=50.0, noise_sigma=3.0, duration_s=1.0, quantised=False
+    )
     assert movie.images.mean() == pytest.approx(100, abs=0.1)
     assert movie.images.std() == pytest.approx(3.0, rel=0.03)
 
 
-@pytest.mark.parametrize("make", [
-    lambda: stimuli.flicker(amplitude=1.5), lambda: stimuli.flash(gain=-1.0), lambda: stimuli.flash(offset_grey=300.0),
-    lambda: stimuli.with_repeats(stimuli.still(), every=0), lambda: stimuli.noise(noise_sigma=1.0),
-    lambda: stimuli.grating(contrast=2.0), lambda: stimuli.grating(direction="east"),
-    lambda: stimuli.grating(period_px=8.0, period_deg=8.0), lambda: stimuli.grating(wave="saw"),
-    lambda: stimuli.translating(direction="up"), lambda: stimuli.still(duration_s=-1.0),
-])
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: stimuli.flicker(amplitude=1.5),
+        lambda: stimuli.flash(gain=-1.0),
+        lambda: stimuli.flash(offset_grey=300.0),
+        lambda: stimuli.with_repeats(stimuli.still(), every=0),
+        lambda: stimuli.noise(noise_sigma=1.0),
+        lambda: stimuli.grating(contrast=2.0),
+        lambda: stimuli.grating(direction="east"),
+        lambda: stimuli.grating(period_px=8.0, period_deg=8.0),
+        lambda: stimuli.grating(wave="saw"),
+        lambda: stimuli.translating(direction="up"),
+        lambda: stimuli.still(duration_s=-1.0),
+    ],
+)
 def test_bad_numbers_are_refused(make):
     with pytest.raises(ParameterError):
         make()
@@ -122,12 +135,14 @@ def test_grating_moves_a_whole_period_in_one_cycle(wave):
     assert movie.images[:, :, :96].mean(axis=(1, 2)) == pytest.approx(175, abs=1e-2)
 
 
-@pytest.mark.parametrize(("direction", "axis", "sign"),
-                         [("right", 1, 1), ("left", 1, -1), ("down", 0, 1), ("up", 0, -1)])
+@pytest.mark.parametrize(
+    ("direction", "axis", "sign"), [("right", 1, 1), ("left", 1, -1), ("down", 0, 1), ("up", 0, -1)]
+)
 def test_grating_drifts_the_way_it_says(direction, axis, sign):
     """Three columns of twelve each picture: the second picture is the first one, rolled by three."""
-    movie = stimuli.grating(direction=direction, period_px=12.0, temporal_hz=7.5, lead_s=0.0, width=48, height=36,
-                            quantised=False)
+    movie = stimuli.grating(
+        direction=direction, period_px=12.0, temporal_hz=7.5, lead_s=0.0, width=48, height=36, quantised=False
+    )
     assert movie.images[1] == pytest.approx(np.roll(movie.images[0], sign * 3, axis=axis), abs=1e-2)
 
 

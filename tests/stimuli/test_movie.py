@@ -91,14 +91,24 @@ def test_sensor_noise_has_the_stated_spread():
     assert abs(pixel_to_pixel) < 0.05
 
 
-@pytest.mark.parametrize(("settings", "message"), [
-    ({"width": 8}, "width"), ({"widht": 99}, "did you mean width"), ({"scene": "moon"}, "plain, arena"),
-    ({"noise_sigma": float("nan")}, "noise_sigma"), ({"background": "tartan"}, "stripes"), ({"rate_hz": 0}, "rate_hz"),
-    ({"speed_cm_s": 0.0}, "speed_cm_s"), ({"l_over_v_ms": 50.0, "speed_cm_s": 8.0}, "not both"),
-    ({"stop_cm": 40.0}, "stop_cm"), ({"offset_cm": float("nan")}, "offset_cm"),
-    ({"l_over_v_ms": -1.0}, "l_over_v_ms"), ({"shape": "star"}, "box, disc"),
-    ({"speed_cm_s": 0.01, "start_cm": 9000.0}, "duration_s"),
-])
+@pytest.mark.parametrize(
+    ("settings", "message"),
+    [
+        ({"width": 8}, "width"),
+        ({"widht": 99}, "did you mean width"),
+        ({"scene": "moon"}, "plain, arena"),
+        ({"noise_sigma": float("nan")}, "noise_sigma"),
+        ({"background": "tartan"}, "stripes"),
+        ({"rate_hz": 0}, "rate_hz"),
+        ({"speed_cm_s": 0.0}, "speed_cm_s"),
+        ({"l_over_v_ms": 50.0, "speed_cm_s": 8.0}, "not both"),
+        ({"stop_cm": 40.0}, "stop_cm"),
+        ({"offset_cm": float("nan")}, "offset_cm"),
+        ({"l_over_v_ms": -1.0}, "l_over_v_ms"),
+        ({"shape": "star"}, "box, disc"),
+        ({"speed_cm_s": 0.01, "start_cm": 9000.0}, "duration_s"),
+    ],
+)
 def test_bad_settings_are_refused_in_one_line(settings, message):
     with pytest.raises(ParameterError, match=message) as caught:
         stimuli.looming(**settings)

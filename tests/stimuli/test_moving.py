@@ -107,8 +107,13 @@ def test_a_tenth_of_a_pixel_shows():
 
 
 @settings(max_examples=40, deadline=None)
-@given(x_cm=st.floats(-6, 6), z_cm=st.floats(1, 60), shape=st.sampled_from(["box", "disc"]),
-       object_cm=st.floats(0.5, 12), contrast=st.floats(0, 40))
+@given(
+    x_cm=st.floats(-6, 6),
+    z_cm=st.floats(1, 60),
+    shape=st.sampled_from(["box", "disc"]),
+    object_cm=st.floats(0.5, 12),
+    contrast=st.floats(0, 40),
+)
 def test_light_stays_between_object_and_wall(x_cm, z_cm, shape, object_cm, contrast):
     thing = MovingObject(shape=shape, object_cm=object_cm, object_contrast_grey=contrast, width=40, height=30)
     image = draw(thing, wall(thing), x_cm, z_cm)
@@ -152,8 +157,9 @@ def test_texture_grows_with_the_object():
 
 def test_arena_object_stands_on_the_floor():
     """The box reaches from 2.2 cm below the lens to 1 cm above it, before wall and floor."""
-    movie = stimuli.looming(scene="arena", noise_sigma=0.0, start_cm=20.0, background_contrast_grey=0.0,
-                            quantised=False)
+    movie = stimuli.looming(
+        scene="arena", noise_sigma=0.0, start_cm=20.0, background_contrast_grey=0.0, quantised=False
+    )
     column = movie.images[0, :, 49]
     above_px, below_px = FOCAL_PX * 1.0 / 20, FOCAL_PX * 2.2 / 20
     assert (175.0 - column[:36]).sum() / 130 == pytest.approx(above_px, abs=1e-3)

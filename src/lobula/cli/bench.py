@@ -36,14 +36,23 @@ def _text(figures: dict[str, Any]) -> str:
     from .table import table
 
     machine, streams, video = figures["machine"], figures["streams"], figures["video"]
-    rows = [(f"{name} {size}", us["median"], us["best"])
-            for name, of in (("step", "step_us"), ("block", "block_us"), ("NumPy step", "reference_step_us"))
-            for size, us in figures[of].items()]
-    rows.append((f"{streams['streams']} streams {streams['size']}, {streams['threads']} threads",
-                 streams["frame_us"]["median"], streams["frame_us"]["best"]))
+    rows = [
+        (f"{name} {size}", us["median"], us["best"])
+        for name, of in (("step", "step_us"), ("block", "block_us"), ("NumPy step", "reference_step_us"))
+        for size, us in figures[of].items()
+    ]
+    rows.append(
+        (
+            f"{streams['streams']} streams {streams['size']}, {streams['threads']} threads",
+            streams["frame_us"]["median"],
+            streams["frame_us"]["best"],
+        )
+    )
     if video is not None:
-        rows += [(f"{video['clip']}, {what}", video[of]["median"], video[of]["best"])
-                 for what, of in (("decoded", "decode_us"), ("to decisions", "to_decision_us"))]
+        rows += [
+            (f"{video['clip']}, {what}", video[of]["median"], video[of]["best"])
+            for what, of in (("decoded", "decode_us"), ("to decisions", "to_decision_us"))
+        ]
     cells = [(what, f"{median:.1f}", f"{best:.1f}") for what, median, best in rows]
     heading = f"{machine['processor']}, {machine['cores']} cores, engine {figures['engine']} {machine['isa'] or ''}"
     return f"{heading.rstrip()}\n\n{table(('us_a_frame', 'median', 'best'), cells, right='median best')}"

@@ -24,8 +24,13 @@ def new_app(about: str | None = None) -> typer.Typer:
 
     ``about`` describes a verb that has verbs of its own.
     """
-    return typer.Typer(help=about, add_completion=False, rich_markup_mode=None, pretty_exceptions_enable=False,
-                       context_settings={"help_option_names": ["-h", "--help"]})
+    return typer.Typer(
+        help=about,
+        add_completion=False,
+        rich_markup_mode=None,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
 
 
 def call(verb: str, arguments: Sequence[str]) -> int:
@@ -52,7 +57,7 @@ def call(verb: str, arguments: Sequence[str]) -> int:
     except _ParserError as error:
         message = cast(Any, error).format_message().rstrip(".")
         if "unexpected extra argument" in message and verb in ("run", "explain"):
-            message += "; one SOURCE is read: quote a pattern, as in \"shots/*.png\""
+            message += '; one SOURCE is read: quote a pattern, as in "shots/*.png"'
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)
 
 

@@ -97,8 +97,15 @@ def validate(
     now = {path: getattr(owner, name) for path, owner, name in walk(chosen.params)}
     changed = {path: value for path, value in now.items() if value != was[path]}
     if json:
-        print_json({"file": str(file), "valid": True, "preset": chosen.preset,
-                    "settings_hash": settings_hash(chosen.params), "changed": changed})
+        print_json(
+            {
+                "file": str(file),
+                "valid": True,
+                "preset": chosen.preset,
+                "settings_hash": settings_hash(chosen.params),
+                "changed": changed,
+            }
+        )
         return
     say(f"{file}: valid; preset {chosen.preset}, settings {settings_hash(chosen.params)}")
     for path, value in changed.items():

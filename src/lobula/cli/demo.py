@@ -72,8 +72,15 @@ def demo(
     _draw(shown, params, out)
     fine = all(s.as_expected for s in shown)
     if json:
-        print_json({"engine": network.engine, "ms_per_frame": round(ms_per_frame, 4), "as_expected": fine,
-                    "picture": str(out), "movies": [_document(s) for s in shown]})
+        print_json(
+            {
+                "engine": network.engine,
+                "ms_per_frame": round(ms_per_frame, 4),
+                "as_expected": fine,
+                "picture": str(out),
+                "movies": [_document(s) for s in shown],
+            }
+        )
     else:
         print(_text(shown))
         say(f"\n{ms_per_frame:.3f} ms a frame, engine {network.engine}; picture: {out}")
@@ -114,8 +121,13 @@ def _first_spikes(s: Shown) -> dict[str, dict[str, Any]]:
 
 
 def _document(s: Shown) -> dict[str, Any]:
-    return {"movie": s.movie.kind, "contact_s": s.movie.contact_s, "collisions_s": s.alarms_s,
-            "as_expected": s.as_expected, "neurons": _first_spikes(s)}
+    return {
+        "movie": s.movie.kind,
+        "contact_s": s.movie.contact_s,
+        "collisions_s": s.alarms_s,
+        "as_expected": s.as_expected,
+        "neurons": _first_spikes(s),
+    }
 
 
 def _text(shown: list[Shown]) -> str:
@@ -125,8 +137,10 @@ def _text(shown: list[Shown]) -> str:
 
     rows = []
     for s in shown:
-        cells = [f"{f['spikes']}, {f['first_s']:.2f}..{f['last_s']:.2f} s" if f["spikes"] else "-"
-                 for f in _first_spikes(s).values()]
+        cells = [
+            f"{f['spikes']}, {f['first_s']:.2f}..{f['last_s']:.2f} s" if f["spikes"] else "-"
+            for f in _first_spikes(s).values()
+        ]
         rows.append((s.title, *cells, f"at {s.alarms_s[0]:.2f} s" if s.alarms_s else "no"))
     heading = ("object", *(LABELS[n] for n in NEURONS), "collision")
     return "spikes, first..last\n" + table(heading, rows) + "\n\n" + "\n".join(map(_sentence, shown))
@@ -135,8 +149,10 @@ def _text(shown: list[Shown]) -> str:
 def _sentence(s: Shown) -> str:
     contact_s = s.movie.contact_s
     if s.alarms_s and contact_s is not None:
-        says = (f"collision seen at {s.alarms_s[0]:.2f} s, {contact_s - s.alarms_s[0]:.2f} s before contact "
-                f"at {contact_s:.2f} s")
+        says = (
+            f"collision seen at {s.alarms_s[0]:.2f} s, {contact_s - s.alarms_s[0]:.2f} s before contact "
+            f"at {contact_s:.2f} s"
+        )
     elif s.alarms_s:
         says = f"collision seen at {s.alarms_s[0]:.2f} s, though nothing comes"
     else:

@@ -29,8 +29,10 @@ def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None
         for written in (path, part_of(path)):  # the second while the work goes on
             for identity in _identities([written]):
                 if identity in read:
-                    raise ParameterError(f"{option} {path}: would overwrite {written}, which is the {read[identity]} "
-                                         "itself: must be another file")
+                    raise ParameterError(
+                        f"{option} {path}: would overwrite {written}, which is the {read[identity]} "
+                        "itself: must be another file"
+                    )
         if path.is_dir():
             raise ParameterError(f"{option} {path}: is a folder, must be a file")
         if not path.parent.is_dir() and (made is None or path.parent.resolve() != made.resolve()):

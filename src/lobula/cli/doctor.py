@@ -44,8 +44,10 @@ def examine() -> dict[str, Any]:
     missing = []
     engine = _engine()
     if engine["engine"] != "core":
-        missing.append(f"the C core ({engine['why_not']}): install a C compiler, then, in the clone, `pip install "
-                       "--force-reinstall --no-deps .`; until then the NumPy reference runs")
+        missing.append(
+            f"the C core ({engine['why_not']}): install a C compiler, then, in the clone, `pip install "
+            "--force-reinstall --no-deps .`; until then the NumPy reference runs"
+        )
     codecs = _codecs()
     if not codecs.get("h264_encoder"):
         missing.append("an H.264 encoder, needed by --annotate and lobula stimulus: pip install --force-reinstall av")

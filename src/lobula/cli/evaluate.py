@@ -27,8 +27,10 @@ SOME_FAILED = 4
 @app.command()
 def evaluate(
     labels: Annotated[Path, typer.Argument(metavar="LABELS.csv", help="what happens in each clip, and when")],
-    clips: Annotated[Path | None, typer.Option(
-        metavar="DIR", help=f"folder of the clips; else ${CLIPS_VARIABLE}, else {DEFAULT_CLIPS}")] = None,
+    clips: Annotated[
+        Path | None,
+        typer.Option(metavar="DIR", help=f"folder of the clips; else ${CLIPS_VARIABLE}, else {DEFAULT_CLIPS}"),
+    ] = None,
     json: o.Json = False,
     preset: o.Preset = None,
     neurons: o.Neurons = None,
@@ -80,8 +82,14 @@ def evaluate(
         raise ParameterError(f"{folder}: none of the {len(rows)} clips of {labels} could be scored")
     summary = summarise(scores)
     if json:
-        about = {"labels": str(labels), "clips_folder": str(folder), "preset": chosen.preset,
-                 "neurons": params.decision.neurons, "settings_hash": settings_hash(params), "engine": network.engine}
+        about = {
+            "labels": str(labels),
+            "clips_folder": str(folder),
+            "preset": chosen.preset,
+            "neurons": params.decision.neurons,
+            "settings_hash": settings_hash(params),
+            "engine": network.engine,
+        }
         print_json({"version": __version__, **about, **document(scores, failures, summary)})
     else:
         print(as_text(scores, failures, summary))

@@ -52,12 +52,19 @@ def _headline(t: Totals) -> str:
     if t.collisions:
         low, high = t.hit_interval
         lead = "" if t.median_lead_s is None else f", median lead {t.median_lead_s:.2f} s"
-        chance = "" if t.chance_hit_rate is None else (
-            f"\nchance: random alarms at the same rate would hit {t.chance_hit_rate:.0%}")
-        lines.append(f"hits {t.hits} of {t.collisions} collisions = {t.hits / t.collisions:.0%} "
-                     f"[{low:.0%}, {high:.0%}] (Wilson){lead}{chance}")
+        chance = (
+            ""
+            if t.chance_hit_rate is None
+            else (f"\nchance: random alarms at the same rate would hit {t.chance_hit_rate:.0%}")
+        )
+        lines.append(
+            f"hits {t.hits} of {t.collisions} collisions = {t.hits / t.collisions:.0%} "
+            f"[{low:.0%}, {high:.0%}] (Wilson){lead}{chance}"
+        )
     if t.per_minute is not None and t.per_minute_interval is not None:
         low, high = t.per_minute_interval
-        lines.append(f"false alarms {t.false_alarms} in {t.minutes:.2f} min = {t.per_minute:.2f} a minute "
-                     f"[{low:.2f}, {high:.2f}] (exact Poisson)")
+        lines.append(
+            f"false alarms {t.false_alarms} in {t.minutes:.2f} min = {t.per_minute:.2f} a minute "
+            f"[{low:.2f}, {high:.2f}] (exact Poisson)"
+        )
     return "\n".join(lines)

@@ -56,8 +56,12 @@ def explain(
     network = Network(params, engine=engine)
     with open_frames(source, **view, start_s=start, stride=stride, rate_hz=rate) as frames:
         found = explain_frame(frames, network, at)
-        about = {"source": frames.name, "preset": chosen.preset, "neurons": params.decision.neurons,
-                 "engine": network.engine}
+        about = {
+            "source": frames.name,
+            "preset": chosen.preset,
+            "neurons": params.decision.neurons,
+            "engine": network.engine,
+        }
     if out is not None:
         _draw(found, out)
         say(f"{out}: every map of frame {found.frame.index}")
@@ -94,16 +98,21 @@ def _text(e: Explanation) -> str:
     parts = [f"frame {e.frame.index} at {e.frame.time_s:.3f} s, state {r.state.replace('_', ' ')}\n{e.verdict}"]
     if not e.advanced:
         parts.append("this frame repeats the one before, or joins an unfinished tick: it did not move the network on")
-    parts.append(table(("condition", "holds", "because"),
-                       [(c.name, "yes" if c.holds else "NO", c.because) for c in e.conditions]))
+    parts.append(
+        table(
+            ("condition", "holds", "because"), [(c.name, "yes" if c.holds else "NO", c.because) for c in e.conditions]
+        )
+    )
     potentials = [(LABELS[n], f"{getattr(r, n):.3f}", getattr(r.spikes, n)) for n in NEURONS]
     parts.append(table(("neuron", "potential", "spikes"), potentials, right="potential spikes"))
     spikes = [(f"{w.time_s:.3f}", f"{w.lgmd1:.2f}", f"{w.lgmd2:.2f}", f"{w.lptc:.2f}") for w in e.window]
     spikes.append(("sum", "", f"A = {e.lgmd:.2f}", f"B = {e.lptc:.2f}"))
-    parts.append("spikes the decision looks back on, weighted by the length of their step\n" + table(
-        ("time_s", "LGMD-1", "LGMD-2", "LPTC"), spikes, right="time_s LGMD-1 LGMD-2 LPTC")
+    parts.append(
+        "spikes the decision looks back on, weighted by the length of their step\n"
+        + table(("time_s", "LGMD-1", "LGMD-2", "LPTC"), spikes, right="time_s LGMD-1 LGMD-2 LPTC")
         + "\nA speaks for a collision: the spikes of the LGMD that gave fewer, or of LGMD-2 where it decides alone"
-        + "\nB speaks for something that passes: the spikes of the LPTCs, in each step of the side that gave more")
+        + "\nB speaks for something that passes: the spikes of the LPTCs, in each step of the side that gave more"
+    )
     layers = [(name, f"{layer.mean:.4g}", f"{layer.peak:.4g}") for name, layer in e.layers.items()]
     parts.append(table(("layer", "mean", "largest"), layers, right="mean largest"))
     return "\n\n".join(parts)

@@ -20,8 +20,10 @@ class Narrator:
 
     def open(self, header: Mapping[str, Any]) -> None:
         """Say what is looked at."""
-        self._say(f"{header['source']}: {header['width']} x {header['height']} px, preset {header['preset']}, "
-                  f"neurons {header['neurons']}, settings {header['settings_hash']}, engine {header['engine']}")
+        self._say(
+            f"{header['source']}: {header['width']} x {header['height']} px, preset {header['preset']}, "
+            f"neurons {header['neurons']}, settings {header['settings_hash']}, engine {header['engine']}"
+        )
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Say nothing."""
@@ -38,15 +40,18 @@ class Narrator:
             self._say(f"{at} COLLISION {record['id']}: {potentials}")
         else:
             lasted_s = record["time_s"] - self._started.pop(record["id"])
-            self._say(f"{at} collision {record['id']} over after {lasted_s:.2f} s, peak at frame "
-                      f"{record['peak_frame']}")
+            self._say(
+                f"{at} collision {record['id']} over after {lasted_s:.2f} s, peak at frame {record['peak_frame']}"
+            )
 
     def close(self, summary: Mapping[str, Any]) -> None:
         """Say how it ended; of a run that looked at nothing the reason says it all."""
         if not summary["frames"]:
             return
-        text = (f"{summary['status'].replace('_', ' ')}: {counted(summary['frames'], 'frame')}, "
-                f"{counted(summary['collisions'], 'collision')}")
+        text = (
+            f"{summary['status'].replace('_', ' ')}: {counted(summary['frames'], 'frame')}, "
+            f"{counted(summary['collisions'], 'collision')}"
+        )
         if summary["dropped"]:
             text += f", {summary['dropped']} dropped"
         if summary["damaged"]:

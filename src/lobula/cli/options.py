@@ -10,16 +10,23 @@ import typer
 
 from ..errors import ParameterError
 
-Source = Annotated[str, typer.Argument(
-    metavar="SOURCE", help="video, image folder, pattern, camera number, rtsp:// or http:// address, or - for a pipe")]
+Source = Annotated[
+    str,
+    typer.Argument(
+        metavar="SOURCE",
+        help="video, image folder, pattern, camera number, rtsp:// or http:// address, or - for a pipe",
+    ),
+]
 
 Json = Annotated[bool, typer.Option("--json", help="records for programs, on standard output")]
 
 Preset = Annotated[str | None, typer.Option(metavar="NAME", help="default, paper or published")]
 Neurons = Annotated[str | None, typer.Option(metavar="all|lgmds|lgmd2", help="who decides")]
 Config = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="settings file, see `lobula config init`")]
-Settings = Annotated[list[str] | None, typer.Option(
-    "--set", metavar="PATH=VALUE", help="one setting, such as lamina.dog.sigma_px=2; may be repeated")]
+Settings = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="PATH=VALUE", help="one setting, such as lamina.dog.sigma_px=2; may be repeated"),
+]
 Sensitivity = Annotated[float | None, typer.Option(metavar="0..1", help="how readily it alarms; 0.5 is the preset")]
 Engine = Annotated[str, typer.Option(metavar="auto|core|reference", help="C core, or the NumPy definition")]
 ScaleKernels = Annotated[bool, typer.Option("--scale-kernels", help="grow the kernels with the working size")]
@@ -36,10 +43,15 @@ End = Annotated[float | None, typer.Option(metavar="S", help="end of the time lo
 Stride = Annotated[int, typer.Option(metavar="N", help="every N-th frame")]
 MaxFrames = Annotated[int | None, typer.Option(metavar="N", help="at most N frames")]
 
-Rate = Annotated[float | None, typer.Option(
-    metavar="HZ", help="pictures per second of a folder, a raw pipe or a bare stream; a request to a camera")]
-PixelFormat = Annotated[str | None, typer.Option(
-    metavar="NAME", help="raw pipe: gray8, yuv420p, nv12, yuyv422, ...; a request to a camera")]
+Rate = Annotated[
+    float | None,
+    typer.Option(
+        metavar="HZ", help="pictures per second of a folder, a raw pipe or a bare stream; a request to a camera"
+    ),
+]
+PixelFormat = Annotated[
+    str | None, typer.Option(metavar="NAME", help="raw pipe: gray8, yuv420p, nv12, yuyv422, ...; a request to a camera")
+]
 InputSize = Annotated[str | None, typer.Option(metavar="WxH", help="raw pipe: size of its pictures; or as above")]
 
 
@@ -50,8 +62,14 @@ def view(size: str, fit: str, roi: str | None, mask: Path | None, flip: str | No
     ------
     ParameterError : a size or a region in another form
     """
-    return {"size": parse_size(size, "--size"), "fit": fit, "roi": None if roi is None else parse_roi(roi),
-            "mask": mask, "flip": flip, "rotate": rotate}
+    return {
+        "size": parse_size(size, "--size"),
+        "fit": fit,
+        "roi": None if roi is None else parse_roi(roi),
+        "mask": mask,
+        "flip": flip,
+        "rotate": rotate,
+    }
 
 
 def parse_size(text: str, option: str) -> tuple[int, int]:

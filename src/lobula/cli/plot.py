@@ -17,8 +17,9 @@ app = new_app()
 @app.command()
 def plot(
     trace: Annotated[Path, typer.Argument(metavar="TRACE", help="a .csv, .jsonl, .npz or .parquet trace")],
-    out: Annotated[Path | None, typer.Option(
-        metavar="FILE", help=".png, .svg or .pdf; beside the trace as .png if left out")] = None,
+    out: Annotated[
+        Path | None, typer.Option(metavar="FILE", help=".png, .svg or .pdf; beside the trace as .png if left out")
+    ] = None,
     json: o.Json = False,
 ) -> None:
     """Draw the four potentials, their thresholds and spikes, the collisions and the states of TRACE."""

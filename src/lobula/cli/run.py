@@ -26,8 +26,9 @@ app = new_app()
 def run(
     source: o.Source,
     json: Annotated[bool, typer.Option("--json", help="NDJSON on standard output: header, events, summary")] = False,
-    trace: Annotated[Path | None, typer.Option(
-        metavar="FILE", help="every frame's reading: .csv, .jsonl, .npz or .parquet")] = None,
+    trace: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="every frame's reading: .csv, .jsonl, .npz or .parquet")
+    ] = None,
     annotate: Annotated[Path | None, typer.Option(metavar="FILE.mp4", help="video with traces and decisions")] = None,
     report: Annotated[Path | None, typer.Option(metavar="DIR", help="a folder with a report page")] = None,
     preset: o.Preset = None,
@@ -90,8 +91,15 @@ def run(
         return _watch(frames, params, chosen.preset, network, files, json, here)
 
 
-def _watch(frames: FrameSource, params: NetworkParams, preset: str, network: Network, files: list[Sink], json: bool,
-           here: Screen) -> int:
+def _watch(
+    frames: FrameSource,
+    params: NetworkParams,
+    preset: str,
+    network: Network,
+    files: list[Sink],
+    json: bool,
+    here: Screen,
+) -> int:
     from ..runtime.header import run_header
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink

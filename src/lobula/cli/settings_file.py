@@ -33,8 +33,11 @@ def settings_toml(rows: Sequence[Mapping[str, Any]], preset: str) -> str:
     for row in rows:
         owner, _, name = row["path"].rpartition(".")
         groups.setdefault(owner, []).append(f"{name} = {toml_value(row['value'])}  # {remark(row)}")
-    lines = ["# Settings of lobula. Lines may be left out: the preset's value holds then.", "",
-             f"preset = {json.dumps(preset)}"]
+    lines = [
+        "# Settings of lobula. Lines may be left out: the preset's value holds then.",
+        "",
+        f"preset = {json.dumps(preset)}",
+    ]
     for owner, settings in groups.items():
         lines += ["", f"[{owner}]", *settings]
     return "\n".join(lines) + "\n"

@@ -22,12 +22,18 @@ app = new_app()
 @app.command()
 def stimulus(
     name: Annotated[str | None, typer.Argument(metavar="NAME", help="kind of movie, see --list")] = None,
-    out: Annotated[Path | None, typer.Option(
-        metavar="FILE", help=".mp4 or .mkv (H.264 without loss), .npz, or a folder for .png; NAME.mp4 if left out"
-    )] = None,
-    settings: Annotated[list[str] | None, typer.Option(
-        "--set", metavar="NAME=VALUE", help="one setting of the movie, such as speed_cm_s=8; may be repeated"
-    )] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE", help=".mp4 or .mkv (H.264 without loss), .npz, or a folder for .png; NAME.mp4 if left out"
+        ),
+    ] = None,
+    settings: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="one setting of the movie, such as speed_cm_s=8; may be repeated"
+        ),
+    ] = None,
     show_list: Annotated[bool, typer.Option("--list", help="the kinds of movie, or the settings of NAME")] = False,
     json: o.Json = False,
 ) -> None:
@@ -146,9 +152,16 @@ def _write_text(path: Path, text: str) -> None:
 def _truth(movie: Movie) -> dict[str, Any]:
     height, width = movie.images.shape[1:]
     contact_frame = None if movie.contact_s is None else round(movie.contact_s * movie.rate_hz)
-    return {"kind": movie.kind, "contact_s": movie.contact_s, "contact_frame": contact_frame,
-            "rate_hz": movie.rate_hz, "frames": len(movie), "width": width, "height": height,
-            "settings": _finite(movie.settings)}
+    return {
+        "kind": movie.kind,
+        "contact_s": movie.contact_s,
+        "contact_frame": contact_frame,
+        "rate_hz": movie.rate_hz,
+        "frames": len(movie),
+        "width": width,
+        "height": height,
+        "settings": _finite(movie.settings),
+    }
 
 
 def _finite(settings: Any) -> dict[str, Any]:

@@ -166,8 +166,12 @@ class CoreNetwork:
         for number, name in enumerate(PLANES):
             plane = np.ascontiguousarray(state[name], np.float32)
             self._core.lobula_set_plane(self._state.address, number, plane.ctypes.data)
-        now = Scalars(still=bool(state["still"]), flashing=bool(state["flashing"]),
-                      rightward=state["lptc_r"], leftward=state["lptc_l"])
+        now = Scalars(
+            still=bool(state["still"]),
+            flashing=bool(state["flashing"]),
+            rightward=state["lptc_r"],
+            leftward=state["lptc_l"],
+        )
         for name in TIMES:
             if not math.isnan(state[name]):
                 setattr(now, name, float(state[name]))

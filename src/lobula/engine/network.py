@@ -43,8 +43,11 @@ def chosen_engine(engine: str) -> Literal["core", "reference"]:
     if available():
         return "core"
     # one text from one line: Python shows it once in a process
-    warnings.warn(f"lobula runs on its NumPy reference, about 40 times slower than its C core: {why_not()}",
-                  RuntimeWarning, stacklevel=2)
+    warnings.warn(
+        f"lobula runs on its NumPy reference, about 40 times slower than its C core: {why_not()}",
+        RuntimeWarning,
+        stacklevel=2,
+    )
     return "reference"
 
 
@@ -64,8 +67,7 @@ class Network:
         self, params: NetworkParams | None = None, *, engine: str = "auto", scale_kernels: bool = False
     ) -> None:
         if not isinstance(params, NetworkParams | None):
-            raise ParameterError(f"Network: params = {params!r}: must be NetworkParams, such as "
-                                 'lobula.preset("paper")')
+            raise ParameterError(f'Network: params = {params!r}: must be NetworkParams, such as lobula.preset("paper")')
         self.params = preset() if params is None else params
         self.scale_kernels = scale_kernels
         self.engine = chosen_engine(engine)
@@ -110,8 +112,9 @@ class Network:
         if not self._streams:
             self._start(image.shape, 1)
         elif len(self._streams) > 1:
-            raise ParameterError(f"Network.step: the network runs {len(self._streams)} streams: must be one; reset() "
-                                 "starts anew")
+            raise ParameterError(
+                f"Network.step: the network runs {len(self._streams)} streams: must be one; reset() starts anew"
+            )
         last_s = self._last_s[0]
         if type(time_s) is not float or last_s is None or not last_s < time_s < np.inf:
             if time_s is None:
@@ -162,8 +165,10 @@ class Network:
             for stream in block:
                 require_not_unit_range(stream[0], "Network.run")
         elif shape != self.shape:
-            raise ShapeError(f"Network.run: {shape[1]} x {shape[0]} px after {self.shape[1]} x {self.shape[0]} (width "
-                             "x height): every frame must have the size of the first; reset() starts anew")
+            raise ShapeError(
+                f"Network.run: {shape[1]} x {shape[0]} px after {self.shape[1]} x {self.shape[0]} (width "
+                "x height): every frame must have the size of the first; reset() starts anew"
+            )
         if threads < 1:
             raise ParameterError(f"Network.run: threads = {threads}: must be at least 1")
         times = _per_frame(times_s, np.float64, count, length, images.ndim, "times_s")
@@ -221,8 +226,10 @@ class Network:
         if shape is None:
             require_not_unit_range(image, "Network.step")
         elif image.shape != shape:
-            raise ShapeError(f"Network.step: {image.shape[1]} x {image.shape[0]} px after {shape[1]} x {shape[0]} "
-                             "(width x height): every frame must have the size of the first; reset() starts anew")
+            raise ShapeError(
+                f"Network.step: {image.shape[1]} x {image.shape[0]} px after {shape[1]} x {shape[0]} "
+                "(width x height): every frame must have the size of the first; reset() starts anew"
+            )
         return image
 
     def _start(self, shape: tuple[int, ...], streams: int) -> None:

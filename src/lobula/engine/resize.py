@@ -35,8 +35,10 @@ class CoreAreaAverage:
         spec = ResizeSpec(source_width, source_height, *crop, out_width, out_height, gain, offset)
         size = int(self._core.lobula_resize_size(ctypes.byref(spec)))
         if not size:
-            raise ShapeError(f"resize: {tuple(crop)} of {source_width} x {source_height} to {out_width} x {out_height} "
-                             "px: must lie inside the source, sides of at most 32768")
+            raise ShapeError(
+                f"resize: {tuple(crop)} of {source_width} x {source_height} to {out_width} x {out_height} "
+                "px: must lie inside the source, sides of at most 32768"
+            )
         self._plan = Memory(size)
         self._core.lobula_resize_init(self._plan.address, ctypes.byref(spec), isa_index())
 

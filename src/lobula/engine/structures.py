@@ -16,14 +16,25 @@ NOT_IN_CORE = {"origins", "turning_deg_s"}
 
 
 class ClockParams(Structure):
-    _fields_ = [(n, c_double) for n in (
-        "period_ms", "change_exponent", "max_gap_ms", "repeats", "repeat_hold_ms", "repeat_mean_grey",
-        "repeat_max_grey")]
+    _fields_ = [
+        (n, c_double)
+        for n in (
+            "period_ms",
+            "change_exponent",
+            "max_gap_ms",
+            "repeats",
+            "repeat_hold_ms",
+            "repeat_mean_grey",
+            "repeat_max_grey",
+        )
+    ]
 
 
 class FlashParams(Structure):
-    _fields_ = [(n, c_double) for n in (
-        "enabled", "min_change_grey", "min_coverage", "trim", "min_explained", "min_gain", "max_gain")]
+    _fields_ = [
+        (n, c_double)
+        for n in ("enabled", "min_change_grey", "min_coverage", "trim", "min_explained", "min_gain", "max_gain")
+    ]
 
 
 class DogParams(Structure):
@@ -43,8 +54,18 @@ class LaminaParams(Structure):
 
 
 class InhibitionParams(Structure):
-    _fields_ = [(n, c_double) for n in (
-        "centre_weight", "nearest_weight", "diagonal_weight", "centre_ms", "nearest_ms", "diagonal_ms", "bias")]
+    _fields_ = [
+        (n, c_double)
+        for n in (
+            "centre_weight",
+            "nearest_weight",
+            "diagonal_weight",
+            "centre_ms",
+            "nearest_ms",
+            "diagonal_ms",
+            "bias",
+        )
+    ]
 
 
 class GroupingParams(Structure):
@@ -77,8 +98,10 @@ class LptcParams(Structure):
 
 
 class DecisionParams(Structure):
-    _fields_ = [(n, c_double) for n in (
-        "neurons", "window_ms", "collision_spikes", "lptc_weight", "end_ms", "warm_up_ms", "after_turn_ms")]
+    _fields_ = [
+        (n, c_double)
+        for n in ("neurons", "window_ms", "collision_spikes", "lptc_weight", "end_ms", "warm_up_ms", "after_turn_ms")
+    ]
 
 
 class CoreParams(Structure):
@@ -166,8 +189,7 @@ SIGNATURES: dict[str, tuple[Any, list[Any]]] = {
     "lobula_init": (ctypes.c_int, [c_void_p, POINTER(CoreParams), ctypes.c_int, ctypes.c_int, ctypes.c_int]),
     "lobula_reset": (ctypes.c_int, [c_void_p]),
     "lobula_step": (ctypes.c_int, [c_void_p, c_void_p, c_double, ctypes.c_int, c_void_p, c_void_p]),
-    "lobula_run": (ctypes.c_int, [
-        c_void_p, c_void_p, c_void_p, c_void_p, ctypes.c_int64, ctypes.c_int, c_void_p]),
+    "lobula_run": (ctypes.c_int, [c_void_p, c_void_p, c_void_p, c_void_p, ctypes.c_int64, ctypes.c_int, c_void_p]),
     "lobula_in_range": (ctypes.c_int, [c_void_p, ctypes.c_int, ctypes.c_int]),
     "lobula_get_plane": (ctypes.c_int, [c_void_p, ctypes.c_int, c_void_p]),
     "lobula_set_plane": (ctypes.c_int, [c_void_p, ctypes.c_int, c_void_p]),

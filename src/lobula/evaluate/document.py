@@ -11,8 +11,13 @@ from .clips import Failure
 from .scoring import AFTER_FRAMES, MIN_LEAD_FRAMES, WINDOW_S, ClipScore
 from .summary import Summary, Totals
 
-RULES = {"window_s": WINDOW_S, "min_lead_frames": MIN_LEAD_FRAMES, "after_frames": AFTER_FRAMES,
-         "hit_interval": "Wilson, 95 %", "false_alarm_interval": "exact Poisson (Garwood), 95 %"}
+RULES = {
+    "window_s": WINDOW_S,
+    "min_lead_frames": MIN_LEAD_FRAMES,
+    "after_frames": AFTER_FRAMES,
+    "hit_interval": "Wilson, 95 %",
+    "false_alarm_interval": "exact Poisson (Garwood), 95 %",
+}
 
 
 def document(scores: Sequence[ClipScore], failures: Sequence[Failure], summary: Summary) -> dict[str, Any]:

@@ -89,8 +89,10 @@ def _require_columns(there: Iterable[str] | None, needed: Sequence[str], where: 
     if missing:
         other = next((mark for mark in (";", "\t") if len(names) == 1 and mark in names[0]), None)
         hint = "" if other is None else f"; its columns are parted by {other!r}: must be commas"
-        raise ParameterError(f"{where}: lacks the column {', '.join(missing)}: must have {', '.join(REQUIRED)}, and "
-                             f"{', '.join(CONTACT)} where collision is 1; may have {', '.join(OPTIONAL)}{hint}")
+        raise ParameterError(
+            f"{where}: lacks the column {', '.join(missing)}: must have {', '.join(REQUIRED)}, and "
+            f"{', '.join(CONTACT)} where collision is 1; may have {', '.join(OPTIONAL)}{hint}"
+        )
 
 
 def _label(row: Mapping[str, str | None], where: str) -> Label:
@@ -108,8 +110,14 @@ def _label(row: Mapping[str, str | None], where: str) -> Label:
     elif cells["contact_frame"]:
         raise ParameterError(f"{where}: contact_frame = {cells['contact_frame']!r}: must be empty where collision is 0")
     kind = cells["class"] or re.split("[:,(]", cells["event"])[0].strip() or ("COLLISION" if hit else "NO COLLISION")
-    return Label(file=cells["file"], contact_frame=contact_frame, uncertainty_frames=uncertainty_frames, kind=kind,
-                 event=cells["event"], confidence=cells["confidence"])
+    return Label(
+        file=cells["file"],
+        contact_frame=contact_frame,
+        uncertainty_frames=uncertainty_frames,
+        kind=kind,
+        event=cells["event"],
+        confidence=cells["confidence"],
+    )
 
 
 def _whole(text: str, column: str, where: str) -> int:

@@ -74,8 +74,16 @@ def score_clip(label: Label, trace: NDArray[np.void]) -> ClipScore:
     alarms = tuple(collisions_of(trace))
     first_s, end_s = _span(trace)
     if label.contact_frame is None:
-        return ClipScore(label=label, frames=len(trace), alarms=alarms, lead_s=None, false_alarms=len(alarms), late=0,
-                         footage_s=end_s - first_s, window_s=0.0)
+        return ClipScore(
+            label=label,
+            frames=len(trace),
+            alarms=alarms,
+            lead_s=None,
+            false_alarms=len(alarms),
+            late=0,
+            footage_s=end_s - first_s,
+            window_s=0.0,
+        )
     contact_s = _time_of(trace, label.contact_frame)
     opens_s = contact_s - WINDOW_S
     closes = label.contact_frame - max(label.uncertainty_frames, MIN_LEAD_FRAMES)

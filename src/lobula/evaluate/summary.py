@@ -77,8 +77,13 @@ def summarise(scores: Iterable[ClipScore]) -> Summary:
     counted = [s for s in scores if not s.label.apart]
     headline = totals(counted)
     rate_per_s = None if headline.per_minute is None else headline.per_minute / 60
-    classes = {kind: totals([s for s in counted if s.label.kind == kind], rate_per_s)
-               for kind in dict.fromkeys(s.label.kind for s in counted)}
-    apart = {why: totals([s for s in scores if s.label.apart == why], rate_per_s)
-             for why in dict.fromkeys(s.label.apart for s in scores) if why}
+    classes = {
+        kind: totals([s for s in counted if s.label.kind == kind], rate_per_s)
+        for kind in dict.fromkeys(s.label.kind for s in counted)
+    }
+    apart = {
+        why: totals([s for s in scores if s.label.apart == why], rate_per_s)
+        for why in dict.fromkeys(s.label.apart for s in scores)
+        if why
+    }
     return Summary(headline=headline, classes=classes, apart=apart)

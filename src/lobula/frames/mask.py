@@ -55,8 +55,10 @@ def _require_shape(shape: tuple[int, ...], region: Rect, where: str) -> None:
     """Refuse a mask that is not the region at some scale, each side rounded by less than a pixel."""
     height, width = shape
     if abs(width * region.height - height * region.width) > region.width + region.height:
-        raise ParameterError(f"{where}: {width} x {height} px over a picture of {region.width} x {region.height}: must "
-                             "have the same shape, at any scale")
+        raise ParameterError(
+            f"{where}: {width} x {height} px over a picture of {region.width} x {region.height}: must "
+            "have the same shape, at any scale"
+        )
 
 
 def _read(path: str | PathLike[str]) -> NDArray[Any]:

@@ -28,7 +28,7 @@ def mix(ground: Colour, colour: Colour, share: float) -> Colour:
 
 def box(canvas: Canvas, row: int, column: int, height: int, width: int, colour: Colour) -> None:
     """Fill a rectangle; what falls outside is cut off."""
-    canvas[max(row, 0): max(row + height, 0), max(column, 0): max(column + width, 0)] = colour
+    canvas[max(row, 0) : max(row + height, 0), max(column, 0) : max(column + width, 0)] = colour
 
 
 def border(canvas: Canvas, width: int, colour: Colour) -> None:
@@ -38,8 +38,16 @@ def border(canvas: Canvas, width: int, colour: Colour) -> None:
 
 
 def text(
-    canvas: Canvas, words: str, row: int, column: int, colour: Colour, ground: Colour, *, size_px: float = 12.0,
-    weight: float = 0.9, align: str = "left",
+    canvas: Canvas,
+    words: str,
+    row: int,
+    column: int,
+    colour: Colour,
+    ground: Colour,
+    *,
+    size_px: float = 12.0,
+    weight: float = 0.9,
+    align: str = "left",
 ) -> None:
     """Write ``words`` on ``ground``, the top of their capitals at ``row``; what falls outside is cut off.
 
@@ -52,7 +60,7 @@ def text(
     for tile in tiles:
         height, width = tile.shape[:2]
         if left >= 0 and top >= 0:
-            target = canvas[top: top + height, left: left + width]
+            target = canvas[top : top + height, left : left + width]
             target[...] = tile[: target.shape[0], : target.shape[1]]
         left += width
 

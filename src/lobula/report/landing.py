@@ -32,8 +32,13 @@ def _reason(error: Exception, path: Path) -> str:
     number = getattr(error, "errno", None)
     if number == errno.ENOENT:
         return f"no such folder {path.parent}"
-    known = {errno.ENOSPC: "the disk is full", errno.EACCES: "no permission", errno.EROFS: "the disk is read-only",
-             errno.EISDIR: "it is a folder", errno.ENOTDIR: f"{path.parent} is not a folder"}
+    known = {
+        errno.ENOSPC: "the disk is full",
+        errno.EACCES: "no permission",
+        errno.EROFS: "the disk is read-only",
+        errno.EISDIR: "it is a folder",
+        errno.ENOTDIR: f"{path.parent} is not a folder",
+    }
     return known.get(number or 0) or str(getattr(error, "strerror", None) or error)
 
 

@@ -34,7 +34,7 @@ def montage(tiles: Sequence[Tile], columns: int, tile_width: int = 198) -> Canva
         row, column = divmod(number, columns)
         top, left = _GAP + row * (height + _CAPTION), _GAP + column * (width + _GAP)
         large = picture.repeat(scale, axis=0).repeat(scale, axis=1)
-        sheet[top: top + height, left: left + width] = large if large.ndim == 3 else large[:, :, None]
+        sheet[top : top + height, left : left + width] = large if large.ndim == 3 else large[:, :, None]
         text(sheet, caption, top + height + 6, left, _TEXT, _GROUND, size_px=8)
     return sheet
 

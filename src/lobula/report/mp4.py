@@ -63,8 +63,14 @@ class Mp4Writer:
             context.color_primaries, context.color_trc = 6, 6
             # A key frame a second, no B frames, a short look-ahead: at most about a second is lost with the process.
             key_every = str(min(max(round(fps), 5), 120))
-            context.options = {"preset": "veryfast", "crf": "22", "bf": "0", "g": key_every, "rc-lookahead": "5",
-                               "threads": "2"}
+            context.options = {
+                "preset": "veryfast",
+                "crf": "22",
+                "bf": "0",
+                "g": key_every,
+                "rc-lookahead": "5",
+                "threads": "2",
+            }
             self._container.start_encoding()
 
     def write(self, picture: NDArray[np.uint8], time_s: float) -> None:
@@ -76,8 +82,9 @@ class Mp4Writer:
             self._gap = tick - self._last_tick
         with writing(self.path, FFmpegError):
             frame = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(picture), format="rgb24")
-            frame = self._to_yuv.reformat(frame, format="yuv420p", dst_colorspace=Colorspace.ITU601,
-                                             dst_color_range=ColorRange.MPEG)
+            frame = self._to_yuv.reformat(
+                frame, format="yuv420p", dst_colorspace=Colorspace.ITU601, dst_color_range=ColorRange.MPEG
+            )
             frame.pts, frame.time_base = tick, TICK
             self._container.mux(self._stream.encode(frame))
             self._whole_bytes = self.part.stat().st_size

@@ -53,16 +53,18 @@ def page_html(report: Report) -> str:
     header = report.header
     source = str(header.get("source", "unknown source"))
     name = source if "://" in source else Path(source).name or source
-    body = "".join((
-        f'<header><p class="over">lobula report</p><h1>{escape(name)}</h1>{_status(report.summary)}</header>',
-        _cards(report),
-        _video_and_events(report),
-        _section("Potentials", traces_html(report.trace, thresholds(header))),
-        _section("Run", _facts(header, report.summary)),
-        _settings(header.get("settings", ())),
-        f'<footer><p>Every frame is in <a href="{_link(report.trace_name)}">{escape(report.trace_name)}</a>. '
-        "lobula is not a certified safety device.</p></footer>",
-    ))
+    body = "".join(
+        (
+            f'<header><p class="over">lobula report</p><h1>{escape(name)}</h1>{_status(report.summary)}</header>',
+            _cards(report),
+            _video_and_events(report),
+            _section("Potentials", traces_html(report.trace, thresholds(header))),
+            _section("Run", _facts(header, report.summary)),
+            _settings(header.get("settings", ())),
+            f'<footer><p>Every frame is in <a href="{_link(report.trace_name)}">{escape(report.trace_name)}</a>. '
+            "lobula is not a certified safety device.</p></footer>",
+        )
+    )
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width, initial-scale=1">'
@@ -89,16 +91,24 @@ def _cards(report: Report) -> str:
     if duration_s is None:
         duration_s = float(trace["time_s"][-1] - trace["time_s"][0]) if len(trace) else 0.0
     collisions = sum(event.name == "collision" for event in report.events)
-    cards = [("collision" if collisions == 1 else "collisions", str(collisions)),
-             ("frames", str(summary.get("frames", len(trace)))), ("duration", f"{duration_s:.1f} s")]
+    cards = [
+        ("collision" if collisions == 1 else "collisions", str(collisions)),
+        ("frames", str(summary.get("frames", len(trace)))),
+        ("duration", f"{duration_s:.1f} s"),
+    ]
     if summary.get("dropped"):
         cards.append(("dropped frames", str(summary["dropped"])))
     if "ms_per_frame" in summary:
         cards.append(("per frame", f"{summary['ms_per_frame']:.2f} ms"))
     first = "card alarm" if collisions else "card"
-    return '<div class="cards">' + "".join(
-        f'<div class="{"card" if number else first}"><b>{escape(value)}</b><span>{escape(label)}</span></div>'
-        for number, (label, value) in enumerate(cards)) + "</div>\n"
+    return (
+        '<div class="cards">'
+        + "".join(
+            f'<div class="{"card" if number else first}"><b>{escape(value)}</b><span>{escape(label)}</span></div>'
+            for number, (label, value) in enumerate(cards)
+        )
+        + "</div>\n"
+    )
 
 
 def _video_and_events(report: Report) -> str:
@@ -106,8 +116,7 @@ def _video_and_events(report: Report) -> str:
     if report.video_name is None:
         return events
     start_s = float(report.trace["time_s"][0]) if len(report.trace) else 0.0
-    video = (f'<video controls preload="metadata" data-start="{start_s:.6f}" src="{_link(report.video_name)}">'
-             "</video>")
+    video = f'<video controls preload="metadata" data-start="{start_s:.6f}" src="{_link(report.video_name)}"></video>'
     return f'<div class="pair">{_section("Video", video)}{events}</div>'
 
 
@@ -130,10 +139,15 @@ def _event(event: Event, seekable: bool) -> str:
         until = f"to {event.end_s:.3f} s, {event.end_s - event.start_s:.3f} s long"
     peak = f", peak at frame {int(event.facts['peak_frame'])}" if "peak_frame" in event.facts else ""
     # + 0.0 turns the -0.0 of a resting LPTC-L into 0.0
-    values = "".join(f'<span class="{n}">{LABELS[n]} {round(event.facts[n], 2) + 0.0:.2f}</span>'
-                     for n in NEURONS if n in event.facts)
-    return (f'<li class="{kind}">{_picture(event)}<div><h3>{escape(title)}{number}</h3><p>{start} {until}</p>'
-            f'<p>frame {event.frame}{peak}</p><p class="values">{values}</p></div></li>')
+    values = "".join(
+        f'<span class="{n}">{LABELS[n]} {round(event.facts[n], 2) + 0.0:.2f}</span>'
+        for n in NEURONS
+        if n in event.facts
+    )
+    return (
+        f'<li class="{kind}">{_picture(event)}<div><h3>{escape(title)}{number}</h3><p>{start} {until}</p>'
+        f'<p>frame {event.frame}{peak}</p><p class="values">{values}</p></div></li>'
+    )
 
 
 def _picture(event: Event) -> str:
@@ -149,8 +163,15 @@ def _facts(header: Mapping[str, Any], summary: Mapping[str, Any]) -> str:
         rows["working size"] = f"{header['width']} x {header['height']} px"
     rows["thresholds"] = ", ".join(f"{LABELS[n]} {level:g}" for n, level in thresholds(header).items())
     rows.update((key, value) for key, value in summary.items() if key not in _SHOWN_ELSEWHERE)
-    return "<dl>" + "".join(f"<div><dt>{escape(str(key).replace('_', ' '))}</dt><dd>{escape(_plain(value))}</dd></div>"
-                            for key, value in rows.items() if value is not None) + "</dl>"
+    return (
+        "<dl>"
+        + "".join(
+            f"<div><dt>{escape(str(key).replace('_', ' '))}</dt><dd>{escape(_plain(value))}</dd></div>"
+            for key, value in rows.items()
+            if value is not None
+        )
+        + "</dl>"
+    )
 
 
 def _settings(settings: Iterable[Mapping[str, Any]]) -> str:
@@ -158,11 +179,15 @@ def _settings(settings: Iterable[Mapping[str, Any]]) -> str:
     if not rows:
         return ""
     head = "".join(f'<th scope="col">{column}</th>' for column in _SETTING_COLUMNS)
-    body = "".join("<tr>" + "".join(f"<td>{escape(_plain(row.get(column, '')))}</td>" for column in _SETTING_COLUMNS)
-                   + "</tr>" for row in rows)
-    return (f"<section><details><summary><h2>Settings ({len(rows)})</h2></summary>"
-            f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
-            "</details></section>\n")
+    body = "".join(
+        "<tr>" + "".join(f"<td>{escape(_plain(row.get(column, '')))}</td>" for column in _SETTING_COLUMNS) + "</tr>"
+        for row in rows
+    )
+    return (
+        f"<section><details><summary><h2>Settings ({len(rows)})</h2></summary>"
+        f'<div class="wide"><table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table></div>'
+        "</details></section>\n"
+    )
 
 
 def _plain(value: Any) -> str:

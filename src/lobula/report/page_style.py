@@ -7,8 +7,10 @@ from .palette import DARK, LIGHT, Theme
 
 def style() -> str:
     """Return the style sheet of the page."""
-    return (f":root{{color-scheme:light dark;{_variables(LIGHT)}}}\n"
-            f"@media (prefers-color-scheme:dark){{:root{{{_variables(DARK)}}}}}\n{_RULES}")
+    return (
+        f":root{{color-scheme:light dark;{_variables(LIGHT)}}}\n"
+        f"@media (prefers-color-scheme:dark){{:root{{{_variables(DARK)}}}}}\n{_RULES}"
+    )
 
 
 def _variables(theme: Theme) -> str:

@@ -25,14 +25,14 @@ def traces_html(trace: NDArray[np.void], thresholds: Mapping[Neuron, float]) -> 
     scale = _WIDTH / max(end_s - start_s, 1e-9)
     shades = _shades(state_spans(trace), "off", start_s, scale) + _shades(collision_spans(trace), "hit", start_s, scale)
     rows = "".join(_row(trace, neuron, thresholds[neuron], shades, start_s, scale) for neuron in NEURONS)
-    legend = ('<p class="legend"><span class="hit">collision</span><span class="off">state other than ok</span>'
-              '<span class="level">threshold</span></p>')
+    legend = (
+        '<p class="legend"><span class="hit">collision</span><span class="off">state other than ok</span>'
+        '<span class="level">threshold</span></p>'
+    )
     return f'<div class="traces">{rows}{_axis(start_s, end_s)}</div>{legend}'
 
 
-def _row(
-    trace: NDArray[np.void], neuron: Neuron, threshold: float, shades: str, start_s: float, scale: float
-) -> str:
+def _row(trace: NDArray[np.void], neuron: Neuron, threshold: float, shades: str, start_s: float, scale: float) -> str:
     low, high = RANGES[neuron]
     time_s, potential = thinned(trace["time_s"], trace[neuron], _MOST_POINTS)
     height = (_TRACE - 2 * _MARGIN) / (high - low)
@@ -51,7 +51,7 @@ def _row(
     label = f"{LABELS[neuron]}: peak {peak:.3f}, {total} spikes"
     return (
         f'<div class="row {neuron}"><div class="name"><b>{LABELS[neuron]}</b><span>{MEANINGS[neuron]}</span>'
-        f'<span>peak {peak:.3f}, {total} spikes</span></div>'
+        f"<span>peak {peak:.3f}, {total} spikes</span></div>"
         f'<div class="plot"><i class="top">{high:g}</i><i class="bottom">{low:g}</i>'
         f'<svg class="curve" viewBox="0 0 {_WIDTH:g} {_TRACE:g}" preserveAspectRatio="none" role="img" '
         f'aria-label="{label}">{shades}<path class="level" d="M0 {level:.1f}H{_WIDTH:g}"/>'
@@ -62,8 +62,11 @@ def _row(
 
 
 def _shades(spans: list[Span], kind: str, start_s: float, scale: float) -> str:
-    return "".join(f'<rect class="{kind}" x="{(s.start_s - start_s) * scale:.1f}" y="0" '
-                   f'width="{max((s.end_s - s.start_s) * scale, 1.0):.1f}" height="{_TRACE:g}"/>' for s in spans)
+    return "".join(
+        f'<rect class="{kind}" x="{(s.start_s - start_s) * scale:.1f}" y="0" '
+        f'width="{max((s.end_s - s.start_s) * scale, 1.0):.1f}" height="{_TRACE:g}"/>'
+        for s in spans
+    )
 
 
 def _axis(start_s: float, end_s: float) -> str:
@@ -71,8 +74,10 @@ def _axis(start_s: float, end_s: float) -> str:
     step_s = _round_step((end_s - start_s) / 7)
     digits = max(0, -math.floor(math.log10(step_s)))
     ticks = np.arange(math.ceil(start_s / step_s - 1e-9), math.floor(end_s / step_s + 1e-9) + 1) * step_s
-    labels = "".join(f'<span style="left:{100 * (t - start_s) / max(end_s - start_s, 1e-9):.2f}%">{t:.{digits}f}</span>'
-                     for t in ticks)
+    labels = "".join(
+        f'<span style="left:{100 * (t - start_s) / max(end_s - start_s, 1e-9):.2f}%">{t:.{digits}f}</span>'
+        for t in ticks
+    )
     return f'<div class="row axis"><div class="name"><span>time, s</span></div><div class="plot">{labels}</div></div>'
 
 

@@ -26,25 +26,47 @@ class Theme(NamedTuple):
 
 
 LIGHT = Theme(
-    ground="#ffffff", panel="#f5f6f8", line="#d5d9e0", text="#1a1d23", dim="#5d6572", collision="#c8102e",
+    ground="#ffffff",
+    panel="#f5f6f8",
+    line="#d5d9e0",
+    text="#1a1d23",
+    dim="#5d6572",
+    collision="#c8102e",
     neurons={"lgmd1": "#084a9c", "lgmd2": "#c45bab", "lptc_r": "#b87400", "lptc_l": "#07806a"},
     states={"ok": "#0a7d63", "warming_up": "#8a93a1", "stale": "#6b5b95", "flash": "#d9a400", "turning": "#2f8fa3"},
 )
 DARK = Theme(
-    ground="#0f1216", panel="#181c22", line="#333a45", text="#eceff3", dim="#9aa4b2", collision="#ff4a4a",
+    ground="#0f1216",
+    panel="#181c22",
+    line="#333a45",
+    text="#eceff3",
+    dim="#9aa4b2",
+    collision="#ff4a4a",
     neurons={"lgmd1": "#3f93e6", "lgmd2": "#f2b0e2", "lptc_r": "#eea824", "lptc_l": "#2cc79a"},
     states={"ok": "#36c79f", "warming_up": "#8b95a5", "stale": "#a08fd6", "flash": "#ffd84d", "turning": "#55bfd3"},
 )
 
 LABELS: Mapping[Neuron, str] = {"lgmd1": "LGMD-1", "lgmd2": "LGMD-2", "lptc_r": "LPTC-R", "lptc_l": "LPTC-L"}
 MEANINGS: Mapping[Neuron, str] = {
-    "lgmd1": "looming, bright or dark", "lgmd2": "looming, dark only", "lptc_r": "motion to the right",
-    "lptc_l": "motion to the left"}
+    "lgmd1": "looming, bright or dark",
+    "lgmd2": "looming, dark only",
+    "lptc_r": "motion to the right",
+    "lptc_l": "motion to the left",
+}
 STATE_LABELS: Mapping[str, str] = {
-    "ok": "ok", "warming_up": "warming up", "stale": "stale", "flash": "flash", "turning": "turning"}
+    "ok": "ok",
+    "warming_up": "warming up",
+    "stale": "stale",
+    "flash": "flash",
+    "turning": "turning",
+}
 
 RANGES: Mapping[Neuron, tuple[float, float]] = {
-    "lgmd1": (0.5, 1.0), "lgmd2": (0.5, 1.0), "lptc_r": (0.0, 1.0), "lptc_l": (-1.0, 0.0)}
+    "lgmd1": (0.5, 1.0),
+    "lgmd2": (0.5, 1.0),
+    "lptc_r": (0.0, 1.0),
+    "lptc_l": (-1.0, 0.0),
+}
 """Membrane potential of each neuron, bottom and top of its axis."""
 
 _PAPER_THRESHOLDS: Mapping[Neuron, float] = {"lgmd1": 0.7, "lgmd2": 0.7, "lptc_r": 0.2, "lptc_l": 0.2}

@@ -125,19 +125,22 @@ def _draw_column(
         for neuron in neurons:
             time_s, potential = thinned(trace["time_s"], trace[neuron])
             style = (0, (3, 2)) if neuron == "lgmd2" else "-"  # both LGMDs are seen where they are the same
-            axes.plot(time_s, potential, color=LIGHT.neurons[neuron], linewidth=1.5, linestyle=style,
-                      label=LABELS[neuron])
+            axes.plot(
+                time_s, potential, color=LIGHT.neurons[neuron], linewidth=1.5, linestyle=style, label=LABELS[neuron]
+            )
         for number, level in enumerate(sorted({levels[neuron] for neuron in neurons})):
-            axes.axhline(level, color=LIGHT.dim, linewidth=0.9, linestyle=(0, (5, 3)),
-                         label="_" if number else "threshold")
+            axes.axhline(
+                level, color=LIGHT.dim, linewidth=0.9, linestyle=(0, (5, 3)), label="_" if number else "threshold"
+            )
         axes.set_ylim(low, high)
     _draw_spikes(spikes, trace)
     _draw_states(states, trace)
     alarms = collision_spans(trace)
     for axes in column[:3]:
         low, high = axes.get_ylim()
-        axes.broken_barh([_bar(span) for span in alarms], (low, high - low), color=LIGHT.collision, alpha=0.14,
-                         linewidth=0, zorder=0)
+        axes.broken_barh(
+            [_bar(span) for span in alarms], (low, high - low), color=LIGHT.collision, alpha=0.14, linewidth=0, zorder=0
+        )
         axes.vlines([span.start_s for span in alarms], low, high, color=LIGHT.collision, linewidth=1.0, zorder=1)
     for axes in column:
         _plain(axes)
@@ -193,15 +196,34 @@ def _draw_pictures(axes: Axes, scene: Scene, trace: NDArray[np.void], count: int
     gap = 0.06 * width
     for place, number in enumerate(chosen):
         left = place * (width + gap)
-        axes.imshow(scene.frames[number].image, cmap="gray", vmin=0, vmax=255, interpolation="nearest",
-                    extent=(left, left + width, 0, height))
+        axes.imshow(
+            scene.frames[number].image,
+            cmap="gray",
+            vmin=0,
+            vmax=255,
+            interpolation="nearest",
+            extent=(left, left + width, 0, height),
+        )
         mark = LIGHT.collision if number == decision else LIGHT.line
-        axes.plot([left, left + width, left + width, left, left], [0, 0, height, height, 0], color=mark,
-                  linewidth=3.5 if number == decision else 0.8, solid_joinstyle="miter", clip_on=False)
+        axes.plot(
+            [left, left + width, left + width, left, left],
+            [0, 0, height, height, 0],
+            color=mark,
+            linewidth=3.5 if number == decision else 0.8,
+            solid_joinstyle="miter",
+            clip_on=False,
+        )
         words = f"{time_s[number]:.2f} s" + (": collision" if number == decision else "")
-        axes.text(left + width / 2, -0.06 * height, words, ha="center", va="top", fontsize=8,
-                  color=LIGHT.collision if number == decision else LIGHT.dim,
-                  fontweight="bold" if number == decision else "normal")
+        axes.text(
+            left + width / 2,
+            -0.06 * height,
+            words,
+            ha="center",
+            va="top",
+            fontsize=8,
+            color=LIGHT.collision if number == decision else LIGHT.dim,
+            fontweight="bold" if number == decision else "normal",
+        )
     axes.set_xlim(-0.02 * width, len(chosen) * (width + gap) - gap + 0.02 * width)
     axes.set_ylim(-0.2 * height, 1.04 * height)
     axes.set_aspect("equal")
@@ -218,8 +240,16 @@ def _draw_legends(column: Sequence[Axes], traces: Sequence[NDArray[np.void]]) ->
     if any(trace["collision"].any() for trace in traces):
         marks.insert(0, patch(color=LIGHT.collision, label="collision"))
     for axes, handles in ((lgmds, None), (lptcs, None), (spikes, marks)):
-        axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=9,
-                    handlelength=1.4, borderaxespad=0, labelcolor=LIGHT.text)
+        axes.legend(
+            handles=handles,
+            loc="upper left",
+            bbox_to_anchor=(1.0, 1.0),
+            frameon=False,
+            fontsize=9,
+            handlelength=1.4,
+            borderaxespad=0,
+            labelcolor=LIGHT.text,
+        )
 
 
 def _plain(axes: Axes) -> None:

@@ -32,7 +32,7 @@ def scene_sheet(scenes: Sequence[Scene], about: Mapping[str, Any] | None = None)
         pictures = montage(_tiles(scene), columns=_PICTURES)
         block = np.full((_TITLE_PX + len(pictures) + STRIP_HEIGHT, max(_WIDTH, pictures.shape[1]), 3), ground, np.uint8)
         text(block, scene.title, 14, 12, ink, ground, size_px=11)
-        block[_TITLE_PX: _TITLE_PX + len(pictures), : pictures.shape[1]] = pictures
+        block[_TITLE_PX : _TITLE_PX + len(pictures), : pictures.shape[1]] = pictures
         strip = Strip(block.shape[1], thresholds(about or {}))
         for row in _telling(scene.trace):
             strip.push(int(row["frame"]), reading_of(row))

@@ -49,8 +49,10 @@ class Strip:
         self._blank = self._draw_blank()
         # Every shade of a neuron's ink on every panel, so that drawing a trace is one look-up per pixel.
         shades = [k / (_SHADES - 1) for k in range(_SHADES)]
-        self._inks = {n: np.array([mix(panel, rgb(DARK.neurons[n]), s) for panel in _PANELS for s in shades], np.uint8)
-                      for n in NEURONS}
+        self._inks = {
+            n: np.array([mix(panel, rgb(DARK.neurons[n]), s) for panel in _PANELS for s in shades], np.uint8)
+            for n in NEURONS
+        }
 
     def push(self, index: int, reading: Reading) -> None:
         """Take the newest reading and forget those that have left the view."""
@@ -116,8 +118,8 @@ class Strip:
         rest = 1.0 if neuron == "lptc_l" else 1 + (high - low) * scale  # LPTC-L rests at 0, the top of its range
         shade = np.zeros((_TRACE + _RASTER, self._plot), np.intp)
         shade[:_TRACE] = _trace_ink(row, rest) * (_SHADES - 1)
-        shade[_TRACE + 1:][_raster(past, counts, self._plot)] = _SHADES - 1
-        panel = canvas[top: top + _TRACE + _RASTER, _LEFT: _LEFT + self._plot]
+        shade[_TRACE + 1 :][_raster(past, counts, self._plot)] = _SHADES - 1
+        panel = canvas[top : top + _TRACE + _RASTER, _LEFT : _LEFT + self._plot]
         np.take(self._inks[neuron], shade + _SHADES * past.panel, axis=0, out=panel, mode="clip")
         panel[1 + round((high - threshold) * scale), np.arange(self._plot) % 8 < 4] = _DIM
         panel[_TRACE] = rgb(DARK.line)

@@ -21,8 +21,17 @@ from .trace_file import COLUMNS, TRACE_SUFFIXES, pyarrow_parquet, read_trace
 
 def trace_row(index: int, reading: Reading) -> tuple[Any, ...]:
     """Return one row of ``TRACE_DTYPE`` as plain Python numbers."""
-    return (int(index), float(reading.time_s), float(reading.lgmd1), float(reading.lgmd2), float(reading.lptc_r),
-            float(reading.lptc_l), *map(int, reading.spikes), bool(reading.collision), str(reading.state))
+    return (
+        int(index),
+        float(reading.time_s),
+        float(reading.lgmd1),
+        float(reading.lgmd2),
+        float(reading.lptc_r),
+        float(reading.lptc_l),
+        *map(int, reading.spikes),
+        bool(reading.collision),
+        str(reading.state),
+    )
 
 
 def facts(header: Mapping[str, Any]) -> dict[str, Any]:

@@ -28,7 +28,11 @@ def _state(text: str) -> str:
 
 _TRUE_FALSE = {"0": False, "1": True, "false": False, "true": True}
 _CAST: Mapping[str, Callable[[str], Any]] = {
-    "i": int, "f": float, "b": lambda text: _TRUE_FALSE[text.lower()], "U": _state}
+    "i": int,
+    "f": float,
+    "b": lambda text: _TRUE_FALSE[text.lower()],
+    "U": _state,
+}
 
 
 def read_trace(path: str | Path) -> NDArray[np.void]:
@@ -109,9 +113,7 @@ def _text(path: Path) -> str:
     return path.read_bytes().decode("utf-8-sig").replace("\r\n", "\n")
 
 
-def _table(
-    path: Path, text: str, parse: Callable[[str], Mapping[str, str]], *, first_line: int
-) -> NDArray[np.void]:
+def _table(path: Path, text: str, parse: Callable[[str], Mapping[str, str]], *, first_line: int) -> NDArray[np.void]:
     table = []
     lines = text.split("\n")  # a file that ends well ends in a line break, so its last item here is empty
     for number, line in enumerate(lines, first_line):
@@ -156,5 +158,6 @@ def _from_columns(columns: Any) -> NDArray[np.void]:
 def _require_columns(path: Path, names: Iterable[str]) -> None:
     missing = [name for name in COLUMNS if name not in names]
     if missing:
-        raise FrameSourceError(f"trace {path}: lacks {', '.join(missing)}: must be a trace as `lobula run --trace` "
-                               "writes it")
+        raise FrameSourceError(
+            f"trace {path}: lacks {', '.join(missing)}: must be a trace as `lobula run --trace` writes it"
+        )

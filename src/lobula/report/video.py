@@ -111,7 +111,7 @@ def _place(view: Canvas, image: NDArray[np.uint8] | None, scaler: VideoReformatt
     frame = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(image), format="rgb24")
     top, left = (view.shape[0] - height) // 2, (view.shape[1] - width) // 2
     scaled = scaler.reformat(frame, width, height, interpolation=way)
-    view[top: top + height, left: left + width] = scaled.to_ndarray()
+    view[top : top + height, left : left + width] = scaled.to_ndarray()
 
 
 def _mark(view: Canvas, reading: Reading) -> None:

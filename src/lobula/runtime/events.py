@@ -93,8 +93,9 @@ class EventLog:
         strength = min(reading.lgmd1, reading.lgmd2)
         event = self._open
         if event is None:
-            event = Collision(id=len(self.collisions) + 1, start_frame=index, start_s=reading.time_s,
-                              peak_frame=index, peak=strength)
+            event = Collision(
+                id=len(self.collisions) + 1, start_frame=index, start_s=reading.time_s, peak_frame=index, peak=strength
+            )
             self.collisions.append(event)
             self._open = event
             return [_start_record(event, reading)]
@@ -123,13 +124,24 @@ def reading_of(row: np.void) -> Reading:
 
 def _start_record(event: Collision, reading: Reading) -> Record:
     potentials = {name: round(getattr(reading, name), 6) for name in NEURONS}
-    return {"type": "collision", "phase": "start", "id": event.id, "frame": event.start_frame,
-            "time_s": _told(event.start_s)} | potentials
+    return {
+        "type": "collision",
+        "phase": "start",
+        "id": event.id,
+        "frame": event.start_frame,
+        "time_s": _told(event.start_s),
+    } | potentials
 
 
 def _end_record(event: Collision) -> Record:
-    return {"type": "collision", "phase": "end", "id": event.id, "frame": event.end_frame,
-            "time_s": _told(event.end_s), "peak_frame": event.peak_frame}
+    return {
+        "type": "collision",
+        "phase": "end",
+        "id": event.id,
+        "frame": event.end_frame,
+        "time_s": _told(event.end_s),
+        "peak_frame": event.peak_frame,
+    }
 
 
 def _state_record(state: State, phase: str, index: int, time_s: float) -> Record:

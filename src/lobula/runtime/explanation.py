@@ -66,8 +66,11 @@ class Explanation:
         unmet = next((c.because for c in self.conditions if not c.holds), None)
         if unmet is None:
             return "collision: " + "; ".join(c.because for c in self.conditions if c.name in _SPEAKING_FOR_IT)
-        return f"collision, since the rule held a moment ago: now {unmet}" if self.reading.collision else (
-            f"no collision: {unmet}")
+        return (
+            f"collision, since the rule held a moment ago: now {unmet}"
+            if self.reading.collision
+            else (f"no collision: {unmet}")
+        )
 
 
 def explain(source: FrameSource, network: Network, at_s: float) -> Explanation:

@@ -37,8 +37,12 @@ def run_header(source: FrameSource, params: NetworkParams, *, preset: str, engin
 def thresholds(params: NetworkParams) -> dict[Neuron, float]:
     """Return the spiking threshold of each neuron, in the sign of its potential."""
     lptc = params.lptc.spiking.threshold
-    return {"lgmd1": params.lgmd1.spiking.threshold, "lgmd2": params.lgmd2.spiking.threshold, "lptc_r": lptc,
-            "lptc_l": -lptc}
+    return {
+        "lgmd1": params.lgmd1.spiking.threshold,
+        "lgmd2": params.lgmd2.spiking.threshold,
+        "lptc_r": lptc,
+        "lptc_l": -lptc,
+    }
 
 
 def setting_rows(params: NetworkParams) -> list[dict[str, Any]]:

@@ -195,5 +195,15 @@ class _Tally:
 
 def unbegun_summary(status: str, message: str) -> Record:
     """Return the summary of a run that never began, so that a reader of records always meets exactly one."""
-    return {"type": "summary", "status": status, "frames": 0, "dropped": 0, "damaged": 0, "collisions": 0,
-            "duration_s": 0.0, "ms_per_frame": 0.0, "ms_worst": 0.0, "problems": [message]}
+    return {
+        "type": "summary",
+        "status": status,
+        "frames": 0,
+        "dropped": 0,
+        "damaged": 0,
+        "collisions": 0,
+        "duration_s": 0.0,
+        "ms_per_frame": 0.0,
+        "ms_worst": 0.0,
+        "problems": [message],
+    }

@@ -109,9 +109,14 @@ def _object_case(kind: str, label: str, **settings: Any) -> Case:
         settings.setdefault("distance_cm", NEARBY_CM)
     about = _about(kind, settings)
     facts = Expectation(
-        kind=kind, dark=about["object_grey"] < about["background_grey"], speed_cm_s=about["speed_cm_s"],
-        background=about["background"], noise_sigma=about["noise_sigma"], object_cm=about["object_cm"],
-        contrast_grey=abs(about["background_grey"] - about["object_grey"]), angle_deg=about.get("angle_deg"),
+        kind=kind,
+        dark=about["object_grey"] < about["background_grey"],
+        speed_cm_s=about["speed_cm_s"],
+        background=about["background"],
+        noise_sigma=about["noise_sigma"],
+        object_cm=about["object_cm"],
+        contrast_grey=abs(about["background_grey"] - about["object_grey"]),
+        angle_deg=about.get("angle_deg"),
     )
     return Case(f"{kind}-{label}", facts, MovieFactory(kind, tuple(settings.items())))
 
@@ -136,8 +141,13 @@ def _still_scenes() -> Iterator[Case]:
 def _light_case(kind: str, label: str, **settings: Any) -> Case:
     about = _about(kind, settings)
     dark = about["offset_grey"] < 0 or about["gain"] < 1 if kind == "flash" else None
-    facts = Expectation(kind=kind, dark=dark, background=about["background"], noise_sigma=about["noise_sigma"],
-                        contrast_grey=abs(about.get("offset_grey", 0.0)) or None)
+    facts = Expectation(
+        kind=kind,
+        dark=dark,
+        background=about["background"],
+        noise_sigma=about["noise_sigma"],
+        contrast_grey=abs(about.get("offset_grey", 0.0)) or None,
+    )
     return Case(f"{kind}-{label}", facts, MovieFactory(kind, tuple(settings.items())))
 
 

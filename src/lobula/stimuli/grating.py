@@ -12,10 +12,18 @@ from .movie import Movie
 from .view import Luminance, View, ViewSettings, film, given, require_between
 
 
-def grating(*, direction: Literal["right", "left", "down", "up"] = "right", period_px: float | None = None,
-            period_deg: float | None = None, temporal_hz: float = 2.0, contrast: float = 0.3,
-            wave: Literal["sine", "square"] = "sine", lead_s: float = 0.5, duration_s: float = 2.0,
-            **settings: Unpack[ViewSettings]) -> Movie:
+def grating(
+    *,
+    direction: Literal["right", "left", "down", "up"] = "right",
+    period_px: float | None = None,
+    period_deg: float | None = None,
+    temporal_hz: float = 2.0,
+    contrast: float = 0.3,
+    wave: Literal["sine", "square"] = "sine",
+    lead_s: float = 0.5,
+    duration_s: float = 2.0,
+    **settings: Unpack[ViewSettings],
+) -> Movie:
     """Return a grating that stands for ``lead_s``, then drifts for ``duration_s``.
 
     A point sees ``temporal_hz`` periods a second. The period is given in columns or in degrees at the middle of the
@@ -56,6 +64,13 @@ def grating(*, direction: Literal["right", "left", "down", "up"] = "right", peri
         line = view.background_grey * (1 + contrast * np.diff(area) * period_px)
         return np.broadcast_to(line if sideways else line[:, None], (view.height, view.width))
 
-    own = {"direction": direction, "period_px": period_px, "temporal_hz": temporal_hz, "contrast": contrast,
-           "wave": wave, "lead_s": lead_s, "duration_s": duration_s}
+    own = {
+        "direction": direction,
+        "period_px": period_px,
+        "temporal_hz": temporal_hz,
+        "contrast": contrast,
+        "wave": wave,
+        "lead_s": lead_s,
+        "duration_s": duration_s,
+    }
     return film(view, lead_s + duration_s, light, kind="grating", settings=own)

@@ -54,8 +54,9 @@ class Flash(Params):
         return 1 + (self.gain - 1) * strength, self.offset_grey * strength
 
 
-def with_flicker(movie: Movie, *, hz: float = 10.0, amplitude: float = 0.1, phase_deg: float = 0.0,
-                 start_s: float = 0.0) -> Movie:
+def with_flicker(
+    movie: Movie, *, hz: float = 10.0, amplitude: float = 0.1, phase_deg: float = 0.0, start_s: float = 0.0
+) -> Movie:
     """Return ``movie`` under a flickering lamp; ``Flicker`` says what each number means.
 
     Each picture samples the lamp at its own instant, so 50, 60 and 100 Hz lamps alias as they do before a camera.
@@ -67,8 +68,15 @@ def with_flicker(movie: Movie, *, hz: float = 10.0, amplitude: float = 0.1, phas
     return _relit(movie, Flicker(hz=hz, amplitude=amplitude, phase_deg=phase_deg, start_s=start_s), "flicker")
 
 
-def with_flash(movie: Movie, *, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 0.0,
-               lasts_s: float = 0.0, decay_s: float = 0.0) -> Movie:
+def with_flash(
+    movie: Movie,
+    *,
+    at_s: float = 1.5,
+    gain: float = 1.0,
+    offset_grey: float = 0.0,
+    lasts_s: float = 0.0,
+    decay_s: float = 0.0,
+) -> Movie:
     """Return ``movie`` with one sudden change of light; ``Flash`` says what each number means.
 
     Raises

@@ -36,8 +36,15 @@ def noise(*, sigma: float = 4.0, duration_s: float = 3.0, **settings: Unpack[Vie
     return replace(still(duration_s=duration_s, **settings), kind="noise")
 
 
-def flicker(*, hz: float = 10.0, amplitude: float = 0.1, phase_deg: float = 0.0, start_s: float = 0.0,
-            duration_s: float = 3.0, **settings: Unpack[ViewSettings]) -> Movie:
+def flicker(
+    *,
+    hz: float = 10.0,
+    amplitude: float = 0.1,
+    phase_deg: float = 0.0,
+    start_s: float = 0.0,
+    duration_s: float = 3.0,
+    **settings: Unpack[ViewSettings],
+) -> Movie:
     """Return the still background under a lamp that flickers as a sinusoid.
 
     Each picture samples the lamp at its own instant, so 50, 60 and 100 Hz lamps alias as they do before a camera.
@@ -51,8 +58,16 @@ def flicker(*, hz: float = 10.0, amplitude: float = 0.1, phase_deg: float = 0.0,
     return _lit(lamp, "flicker", duration_s, settings)
 
 
-def flash(*, at_s: float = 1.5, gain: float = 1.0, offset_grey: float = 60.0, lasts_s: float = 0.0,
-          decay_s: float = 0.0, duration_s: float = 3.0, **settings: Unpack[ViewSettings]) -> Movie:
+def flash(
+    *,
+    at_s: float = 1.5,
+    gain: float = 1.0,
+    offset_grey: float = 60.0,
+    lasts_s: float = 0.0,
+    decay_s: float = 0.0,
+    duration_s: float = 3.0,
+    **settings: Unpack[ViewSettings],
+) -> Movie:
     """Return the still background with one sudden change of light: a step, a pulse, or one that fades.
 
     ``Flash`` says what each number means; ``settings``: see ``View``.

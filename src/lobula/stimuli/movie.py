@@ -59,8 +59,9 @@ def mirrored(movie: Movie) -> Movie:
         if name in settings:
             settings[name] = -settings[name]
     settings["mirrored"] = not settings.get("mirrored", False)
-    return replace(movie, images=np.ascontiguousarray(backwards), settings=settings,
-                   kind=_MIRROR_KIND.get(movie.kind, movie.kind))
+    return replace(
+        movie, images=np.ascontiguousarray(backwards), settings=settings, kind=_MIRROR_KIND.get(movie.kind, movie.kind)
+    )
 
 
 def as_images(luminance: NDArray[Any], like: np.dtype[Any]) -> NDArray[Any]:

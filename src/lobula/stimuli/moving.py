@@ -15,8 +15,15 @@ Path = Callable[[float], tuple[float, float]]
 """Seconds of travel -> (x_cm to the right of the optical axis, z_cm ahead of the lens)."""
 
 
-def looming(*, l_over_v_ms: float | None = None, speed_cm_s: float | None = None, start_cm: float = 30.0,
-            stop_cm: float = 3.5, offset_cm: float = 0.0, **settings: Unpack[ObjectSettings]) -> Movie:
+def looming(
+    *,
+    l_over_v_ms: float | None = None,
+    speed_cm_s: float | None = None,
+    start_cm: float = 30.0,
+    stop_cm: float = 3.5,
+    offset_cm: float = 0.0,
+    **settings: Unpack[ObjectSettings],
+) -> Movie:
     """Return a frontal approach at constant speed.
 
     Give ``speed_cm_s`` (default 8) or ``l_over_v_ms``, half the width over the speed. The object comes from
@@ -40,14 +47,31 @@ def looming(*, l_over_v_ms: float | None = None, speed_cm_s: float | None = None
     require_between("stimuli.looming: start_cm", start_cm, 0.1, 1e4, "cm")
     require_between("stimuli.looming: stop_cm", stop_cm, 0.0, start_cm, "cm")
     require_between("stimuli.looming: offset_cm", offset_cm, -1e4, 1e4, "cm")
-    own = {"speed_cm_s": speed, "l_over_v_ms": thing.object_cm / 2 / speed * 1000, "start_cm": start_cm,
-           "stop_cm": stop_cm, "offset_cm": offset_cm}
-    return _film(thing, "looming", lambda u: (offset_cm, start_cm - speed * u), (start_cm - stop_cm) / speed, own,
-                 touch_s=start_cm / speed)
+    own = {
+        "speed_cm_s": speed,
+        "l_over_v_ms": thing.object_cm / 2 / speed * 1000,
+        "start_cm": start_cm,
+        "stop_cm": stop_cm,
+        "offset_cm": offset_cm,
+    }
+    return _film(
+        thing,
+        "looming",
+        lambda u: (offset_cm, start_cm - speed * u),
+        (start_cm - stop_cm) / speed,
+        own,
+        touch_s=start_cm / speed,
+    )
 
 
-def receding(*, speed_cm_s: float = 8.0, start_cm: float = 3.5, stop_cm: float = 30.0, offset_cm: float = 0.0,
-             **settings: Unpack[ObjectSettings]) -> Movie:
+def receding(
+    *,
+    speed_cm_s: float = 8.0,
+    start_cm: float = 3.5,
+    stop_cm: float = 30.0,
+    offset_cm: float = 0.0,
+    **settings: Unpack[ObjectSettings],
+) -> Movie:
     """Return a recession: the object starts near, at ``start_cm``, and backs away to ``stop_cm``.
 
     The same geometry as ``looming`` run backwards. ``settings``: see ``MovingObject`` and ``View``.
@@ -63,12 +87,19 @@ def receding(*, speed_cm_s: float = 8.0, start_cm: float = 3.5, stop_cm: float =
     require_between("stimuli.receding: start_cm", start_cm, 0.0, stop_cm, "cm")
     require_between("stimuli.receding: offset_cm", offset_cm, -1e4, 1e4, "cm")
     own = {"speed_cm_s": speed, "start_cm": start_cm, "stop_cm": stop_cm, "offset_cm": offset_cm}
-    return _film(_object(settings), "receding", lambda u: (offset_cm, start_cm + speed * u),
-                 (stop_cm - start_cm) / speed, own)
+    return _film(
+        _object(settings), "receding", lambda u: (offset_cm, start_cm + speed * u), (stop_cm - start_cm) / speed, own
+    )
 
 
-def translating(*, direction: Literal["right", "left"] = "right", speed_cm_s: float = 8.0, distance_cm: float = 8.0,
-                span_cm: float = 14.0, **settings: Unpack[ObjectSettings]) -> Movie:
+def translating(
+    *,
+    direction: Literal["right", "left"] = "right",
+    speed_cm_s: float = 8.0,
+    distance_cm: float = 8.0,
+    span_cm: float = 14.0,
+    **settings: Unpack[ObjectSettings],
+) -> Movie:
     """Return an object that passes by at constant depth ``distance_cm``, from ``span_cm`` on one side to the other.
 
     Its kind is ``translating_right`` or ``translating_left``. ``settings``: see ``MovingObject`` and ``View``.
@@ -86,12 +117,23 @@ def translating(*, direction: Literal["right", "left"] = "right", speed_cm_s: fl
     require_between("stimuli.translating: span_cm", span_cm, 0.0, 1e4, "cm")
     sign = 1.0 if direction == "right" else -1.0
     own = {"direction": direction, "speed_cm_s": speed, "distance_cm": distance_cm, "span_cm": span_cm}
-    return _film(_object(settings), f"translating_{direction}", lambda u: (sign * (speed * u - span_cm), distance_cm),
-                 2 * span_cm / speed, own)
+    return _film(
+        _object(settings),
+        f"translating_{direction}",
+        lambda u: (sign * (speed * u - span_cm), distance_cm),
+        2 * span_cm / speed,
+        own,
+    )
 
 
-def angular(*, angle_deg: float = -30.0, speed_cm_s: float = 8.0, start_cm: float = 30.0, aim_cm: float = 3.0,
-            **settings: Unpack[ObjectSettings]) -> Movie:
+def angular(
+    *,
+    angle_deg: float = -30.0,
+    speed_cm_s: float = 8.0,
+    start_cm: float = 30.0,
+    aim_cm: float = 3.0,
+    **settings: Unpack[ObjectSettings],
+) -> Movie:
     """Return an approach from the side, along a straight line that ends right before the camera.
 
     The object starts ``start_cm`` away at bearing ``angle_deg`` (negative: from the left, so it moves rightward
@@ -129,8 +171,9 @@ def _speed(name: str, speed_cm_s: float) -> float:
     return require_between(f"stimuli.{name}: speed_cm_s", speed_cm_s, 0.01, 1e4, "cm/s")
 
 
-def _film(thing: MovingObject, kind: str, path: Path, travel_s: float, own: Mapping[str, Any], *,
-          touch_s: float | None = None) -> Movie:
+def _film(
+    thing: MovingObject, kind: str, path: Path, travel_s: float, own: Mapping[str, Any], *, touch_s: float | None = None
+) -> Movie:
     behind = wall(thing)
     drawn: dict[tuple[float, float], Luminance] = {}  # the last picture: the object often stands still
 
@@ -141,5 +184,11 @@ def _film(thing: MovingObject, kind: str, path: Path, travel_s: float, own: Mapp
             drawn[place] = draw(thing, behind, *place)
         return drawn[place]
 
-    return film(thing, thing.lead_s + travel_s + thing.hold_s, light, kind=kind, settings=own,
-                contact_s=None if touch_s is None else thing.lead_s + touch_s)
+    return film(
+        thing,
+        thing.lead_s + travel_s + thing.hold_s,
+        light,
+        kind=kind,
+        settings=own,
+        contact_s=None if touch_s is None else thing.lead_s + touch_s,
+    )

@@ -24,12 +24,15 @@ class MovingObject(View):
     height_cm: float = param(3.2, "cm", "full height", low=0.01, high=1000, source="chosen")
     shape: str = param("box", "", "outline", choices=("box", "disc"), source="chosen")
     object_grey: float = param(45.0, "grey", "mean luminance", low=0, high=255, source="chosen")
-    object_contrast_grey: float = param(0.0, "grey", "its stripes stay within the mean +- this", low=0, high=255,
-                                        source="chosen")
-    object_stripes: int = param(8, "", "stripes across the object; they grow with it", low=1, high=1000,
-                                source="chosen")
-    eye_cm: float = param(2.2, "cm", "height of the camera above the floor, where there is one", low=0, high=1000,
-                          source="chosen")
+    object_contrast_grey: float = param(
+        0.0, "grey", "its stripes stay within the mean +- this", low=0, high=255, source="chosen"
+    )
+    object_stripes: int = param(
+        8, "", "stripes across the object; they grow with it", low=1, high=1000, source="chosen"
+    )
+    eye_cm: float = param(
+        2.2, "cm", "height of the camera above the floor, where there is one", low=0, high=1000, source="chosen"
+    )
     lead_s: float = param(0.5, "s", "stillness before the motion", low=0, high=600, source="chosen")
     hold_s: float = param(0.3, "s", "stillness after the motion", low=0, high=600, source="chosen")
 

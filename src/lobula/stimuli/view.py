@@ -32,8 +32,9 @@ class View(Params):
     rate_hz: float = param(30.0, "Hz", "pictures per second", low=1, high=1000, source="Colias camera")
     background: str = param("plain", "", "pattern of the wall", choices=("plain", "stripes", "blobs"), source="chosen")
     background_grey: float = param(175.0, "grey", "mean of the wall", low=0, high=255, source="chosen")
-    background_contrast_grey: float = param(12.0, "grey", "the pattern stays within the mean +- this", low=0, high=255,
-                                            source="chosen")
+    background_contrast_grey: float = param(
+        12.0, "grey", "the pattern stays within the mean +- this", low=0, high=255, source="chosen"
+    )
     background_deg: float = param(2.0, "deg", "width of a stripe, or of a blob", low=0.1, high=30, source="chosen")
     floor: bool = param(False, "", "a dark floor below the horizon; the object stands on it", source="chosen")
     floor_grey: float = param(95.0, "grey", "luminance of the floor", low=0, high=255, source="chosen")
@@ -103,8 +104,9 @@ def require_between(where: str, value: float, low: float, high: float, unit: str
     return float(value)
 
 
-def strip_means(edges: NDArray[np.float64], values: NDArray[np.float64],
-                samples: NDArray[np.float64]) -> NDArray[np.float64]:
+def strip_means(
+    edges: NDArray[np.float64], values: NDArray[np.float64], samples: NDArray[np.float64]
+) -> NDArray[np.float64]:
     """Integrate a row of flat strips exactly between neighbouring ``samples``.
 
     ``edges`` (n + 1,) rising, ``values`` (n,) one for each strip; outside the strips there is nothing. ``samples``
@@ -122,8 +124,9 @@ def wall(view: View) -> Luminance:
     if view.background == "stripes":
         count = math.ceil(view.width / size_px)
         edges = np.arange(count + 1.0) * size_px
-        image += strip_means(edges, view.background_contrast_grey * rng.uniform(-1, 1, count),
-                             np.arange(view.width + 1.0))
+        image += strip_means(
+            edges, view.background_contrast_grey * rng.uniform(-1, 1, count), np.arange(view.width + 1.0)
+        )
     elif view.background == "blobs":
         image += view.background_contrast_grey * _blobs(rng, view.height, view.width, size_px)
     if view.floor:
@@ -151,8 +154,15 @@ def stamps(view: View, duration_s: float) -> NDArray[np.float64]:
     return np.arange(math.floor(duration_s * view.rate_hz + 1e-9) + 1) / view.rate_hz
 
 
-def film(view: View, duration_s: float, light: Callable[[float], Luminance], *, kind: str,
-         contact_s: float | None = None, settings: Mapping[str, Any]) -> Movie:
+def film(
+    view: View,
+    duration_s: float,
+    light: Callable[[float], Luminance],
+    *,
+    kind: str,
+    contact_s: float | None = None,
+    settings: Mapping[str, Any],
+) -> Movie:
     """Take pictures of ``light(time_s)`` for ``duration_s``, add the sensor's noise, round, and wrap it all up.
 
     ``light`` may hand back the very same array while nothing moves; it is not written to.
