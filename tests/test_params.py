@@ -1,9 +1,12 @@
 """Settings: their checks, their paths, where their values come from."""
 
+import json
 import math
 import re
 from dataclasses import dataclass, field, fields, is_dataclass, replace
+from fractions import Fraction
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -57,7 +60,9 @@ def test_numbers_outside_are_refused(bad):
         Inner(sigma_px=bad)
 
 
-@pytest.mark.parametrize("bad", [(), 3, [1, 2], (0, 1), (1, 10), (1, 2.0), (1, math.nan), ("1",)])
+@pytest.mark.parametrize(
+    "bad", [(), [], 3, "12", (0, 1), [1, 10], (1, 2.0), (1, math.nan), ("1",), np.ones((2, 2), int)]
+)
 def test_lists_are_checked_item_by_item(bad):
     with pytest.raises(ParameterError, match=r"^Inner\.spans_px = .*: must be (a list of )?int in \[1, 9\] px$"):
         Inner(spans_px=bad)
@@ -66,6 +71,43 @@ def test_lists_are_checked_item_by_item(bad):
 def test_ends_of_a_range_belong_to_it():
     assert (Inner(sigma_px=0.5).sigma_px, Inner(sigma_px=8).sigma_px) == (0.5, 8)
     assert Inner(spans_px=(1, 9, 9)).spans_px == (1, 9, 9)
+
+
+PLAIN = [
+    (Inner, "sigma_px", 2, 2.0),
+    (Inner, "sigma_px", np.float64(2), 2.0),
+    (Inner, "sigma_px", np.float32(2), 2.0),
+    (Inner, "sigma_px", np.uint8(2), 2.0),
+    (Inner, "sigma_px", np.array(2), 2.0),
+    (Inner, "sigma_px", Fraction(4, 2), 2.0),
+    (Inner, "spans_px", [1, 2], (1, 2)),
+    (Inner, "spans_px", np.array([1, 2]), (1, 2)),
+    (Inner, "spans_px", (np.int64(1), np.uint8(2)), (1, 2)),
+    (Outer, "count", np.int32(3), 3),
+    (Outer, "enabled", np.True_, True),
+    (Outer, "reads", np.str_("change"), "change"),
+]
+
+
+@pytest.mark.parametrize(("group", "name", "given", "plain"), PLAIN)
+def test_values_become_plain_ones_of_their_own_kind(group, name, given, plain):
+    """However a value came, it is kept, hashed and written as the one kind its setting has."""
+    settings = {name: given}
+    for made in (group(**settings), replace(group(), **settings), with_settings(group(), settings, "a script")):
+        kept = getattr(made, name)
+        assert (kept, type(kept)) == (plain, type(plain))
+        assert not isinstance(plain, tuple) or [type(item) for item in kept] == [int, int]
+        assert settings_hash(made) == settings_hash(group(**{name: plain}))
+        assert json.loads(json.dumps(to_dict(made))) == to_dict(made)
+
+
+@pytest.mark.parametrize(
+    ("name", "given"),
+    [("count", np.float64(3)), ("count", np.True_), ("enabled", np.int64(1)), ("reads", np.str_("retina"))],
+)
+def test_plain_or_not_the_wrong_kind_is_refused(name, given):
+    with pytest.raises(ParameterError, match=rf"^Outer\.{name} = .*: must be "):
+        Outer(**{name: given})
 
 
 def test_settings_cannot_be_changed_in_place_and_replace_checks_again():

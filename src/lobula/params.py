@@ -37,6 +37,9 @@ def param(
 class Params:
     """Base of every parameter set: checks each field against its own kind and range when the object is made.
 
+    What is kept is the kind's own plain value: 2 in a field of real numbers is 2.0, a NumPy scalar a Python number, a
+    list a tuple. So equal settings read, hash and compare alike however they were given.
+
     ``origins`` names where a value came from when it is not the declared one: a preset, a file, the command line.
     """
 
@@ -45,25 +48,34 @@ class Params:
     def __post_init__(self) -> None:
         for f in fields(self):
             if "source" in f.metadata:
-                _check(f"{type(self).__name__}.{f.name}", getattr(self, f.name), f.default, f.metadata)
+                value = _plain(f"{type(self).__name__}.{f.name}", getattr(self, f.name), f.default, f.metadata)
+                object.__setattr__(self, f.name, value)
 
     def source_of(self, name: str) -> str:
         """Where the value of field ``name`` comes from."""
         return self.origins.get(name) or str(type(self).__dataclass_fields__[name].metadata["source"])
 
 
-def _check(where: str, value: Any, default: Any, about: Mapping[str, Any]) -> None:
-    items, kind = (value, type(default[0])) if isinstance(default, tuple) else ((value,), type(default))
-    if isinstance(default, tuple) and (not isinstance(value, tuple) or not value):
+def _plain(where: str, value: Any, default: Any, about: Mapping[str, Any]) -> Any:
+    """Return ``value`` in the plain kind of ``default``, or say in one line what is allowed."""
+    value = value.tolist() if hasattr(value, "tolist") else value  # NumPy's scalars and arrays
+    if not isinstance(default, tuple):
+        return _plain_item(where, value, value, type(default), about)
+    kind = type(default[0])
+    if not isinstance(value, list | tuple) or not value:
         raise ParameterError(f"{where} = {value!r}: must be a list of {kind.__name__} {_allowed(about)}".rstrip())
+    return tuple(_plain_item(where, item, tuple(value), kind, about) for item in value)
+
+
+def _plain_item(where: str, item: Any, value: Any, kind: type, about: Mapping[str, Any]) -> Any:
+    """Return ``item``, which is ``value`` or one of its items, as ``kind``."""
     accepts = {int: Integral, float: Real}.get(kind, kind)
-    low, high = about["low"], about["high"]
-    for item in items:
-        ok = isinstance(item, accepts) and (kind is bool or not isinstance(item, bool))
-        ok = ok and (low is None or item >= low) and (high is None or item <= high)  # NaN is never ok
-        ok = ok and (about["choices"] is None or item in about["choices"])
-        if not ok:
-            raise ParameterError(f"{where} = {value!r}: must be {kind.__name__} {_allowed(about)}".rstrip())
+    low, high, choices = about["low"], about["high"], about["choices"]
+    ok = isinstance(item, accepts) and (kind is bool or not isinstance(item, bool))
+    ok = ok and (low is None or item >= low) and (high is None or item <= high)  # NaN is never ok
+    if not (ok and (choices is None or item in choices)):
+        raise ParameterError(f"{where} = {value!r}: must be {kind.__name__} {_allowed(about)}".rstrip())
+    return kind(item) if choices is None else choices[choices.index(item)]
 
 
 def _allowed(about: Mapping[str, Any]) -> str:
@@ -119,8 +131,7 @@ def with_settings(params: Params, settings: Mapping[str, Any], source: str, wher
                 )
             changed[name] = with_settings(typing.cast(Params, current), value, source, f"{where}{name}.")
         else:
-            changed[name] = _coerce(value, current)
-            _check(f"{where}{name}", changed[name], known[name].default, known[name].metadata)
+            changed[name] = _plain(f"{where}{name}", value, known[name].default, known[name].metadata)
             origins[name] = source
     return replace(params, origins=origins, **changed)
 
@@ -147,14 +158,6 @@ def parse_setting(text: str) -> dict[str, Any]:
 def settings_hash(params: Params) -> str:
     """Twelve hexadecimal digits that change when any value changes; stored in every output."""
     return hashlib.sha256(json.dumps(to_dict(params), sort_keys=True).encode()).hexdigest()[:12]
-
-
-def _coerce(value: Any, current: Any) -> Any:
-    if isinstance(current, tuple) and isinstance(value, list | tuple):
-        return tuple(_coerce(item, current[0]) for item in value)
-    if isinstance(current, float) and isinstance(value, Integral) and not isinstance(value, bool):
-        return float(value)
-    return value
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

@@ -41,7 +41,7 @@ def write(path, pictures, codec="ffv1", **options):
         (["clip", "--preset", "papr"], "preset 'papr': must be one of default,"),
         (["clip", "--neurons", "some"], "must be str one of all, lgmds, lgmd2"),
         (["clip", "--set", "lamina.dog.sigma=2"], "unknown setting lamina.dog.sigma: did you mean sigma_px?"),
-        (["clip", "--set", "lamina.dog.sigma_px=-2"], "sigma_px = -2.0: must be float in [0.3, 32] px"),
+        (["clip", "--set", "lamina.dog.sigma_px=-2"], "sigma_px = -2: must be float in [0.3, 32] px"),
         (["clip", "--set", "lamina"], "must be PATH=VALUE"),
         (["clip", "--config", "none.toml"], "settings file none.toml: no such file"),
         (["clip", "--config", "wrong.toml"], "file wrong.toml: unknown setting decison: did you mean decision?"),
