@@ -210,7 +210,7 @@ class TestEvaluate:
     def test_scores_as_text(self, call, clips, monkeypatch):
         monkeypatch.setenv("LOBULA_CLIPS", str(clips))
         out = call("evaluate", "labels.csv").out
-        assert "hits 1 of 1 collisions = 100% [21%, 100%] (Wilson)" in out  # 1 / (1 + 1.96^2) = 0.2065
+        assert "hits 1 of 1 collision = 100% [21%, 100%] (Wilson)" in out  # 1 / (1 + 1.96^2) = 0.2065
         assert "false alarms 0 in 0.07 min" in out
 
     def test_a_clip_that_is_missing(self, call, clips):
@@ -219,7 +219,9 @@ class TestEvaluate:
         assert done.code == 4
         assert done.document["failed"] == [{"file": "goes.mp4", "problem": "goes.mp4: no such file or folder"}]
         (clips / "comes.mp4").unlink()
-        assert call("evaluate", "labels.csv", "--clips", ".").code == 2
+        none = call("evaluate", "labels.csv", "--clips", ".")
+        assert none.code == 2
+        assert none.err.splitlines()[-1] == "lobula: .: none of the clips that labels.csv names could be scored"
 
     def test_wrong_requests(self, call, clips, monkeypatch):
         assert "--clips none: no such folder" in call("evaluate", "labels.csv", "--clips", "none").err

@@ -79,7 +79,7 @@ def evaluate(
     for failure in failures:
         say(f"lobula: {failure.message}")
     if not scores:
-        raise ParameterError(f"{folder}: none of the {len(rows)} clips of {labels} could be scored")
+        raise ParameterError(f"{folder}: none of the clips that {labels} names could be scored")
     summary = summarise(scores)
     if json:
         about = {

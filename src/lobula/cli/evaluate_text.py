@@ -7,6 +7,7 @@ from collections.abc import Iterable, Sequence
 from ..evaluate.clips import Failure
 from ..evaluate.scoring import ClipScore
 from ..evaluate.summary import Summary, Totals
+from .counted import counted
 from .table import table
 
 _CLIP_COLUMNS = ("clip", "class", "result", "lead_s", "alarms_s", "false", "minutes")
@@ -58,7 +59,7 @@ def _headline(t: Totals) -> str:
             else (f"\nchance: random alarms at the same rate would hit {t.chance_hit_rate:.0%}")
         )
         lines.append(
-            f"hits {t.hits} of {t.collisions} collisions = {t.hits / t.collisions:.0%} "
+            f"hits {t.hits} of {counted(t.collisions, 'collision')} = {t.hits / t.collisions:.0%} "
             f"[{low:.0%}, {high:.0%}] (Wilson){lead}{chance}"
         )
     if t.per_minute is not None and t.per_minute_interval is not None:
