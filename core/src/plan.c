@@ -86,7 +86,8 @@ static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, dou
 
 /* model/medulla/emd.py: in a long step things go further. */
 static int stretched(int span_px, double ticks) {
-    int far = (int)floor(span_px * (ticks < MAX_STRETCH ? ticks : MAX_STRETCH) + 0.5);
+    int quarters = (int)floor(4.0 * (ticks < MAX_STRETCH ? ticks : MAX_STRETCH) + 0.6);
+    int far = (2 * span_px * quarters + 4) / 8;
     return far < 1 ? 1 : far;
 }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 
 from .lamina import share
 
@@ -21,6 +22,13 @@ def correlate(now: Rows, before: Rows, spans: list[int], delays_ms: list[float])
                 delayed_right = a * now[y][x + d] + (1 - a) * before[y][x + d]
                 out[y][x] += delayed_left * now[y][x + d] - now[y][x] * delayed_right
     return out
+
+
+def spans(ticks: float) -> list[int]:
+    """Spans of 1 to 4 px in a step of ``ticks``: the nearest quarter tick, from 0.4 of a quarter the one above."""
+    below = math.floor(4 * min(ticks, 4))
+    quarters = below + (4 * min(ticks, 4) - below >= 0.4)
+    return [max(1, math.floor(Fraction(d * quarters, 4) + Fraction(1, 2))) for d in (1, 2, 3, 4)]
 
 
 def potentials(hs: float, pixels: int, k_hs: float) -> tuple[float, float]:

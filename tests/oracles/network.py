@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 
 from .decision import Step, decide, spike_count
 from .dog import dog
-from .emd import correlate, potentials
+from .emd import correlate, potentials, spans
 from .lamina import CLOCK_MS, Rows, fdsr, on_off, share
 from .lgmd import Rings, adaptation, competition, grouping, inhibition, sigmoid, summation
 
@@ -93,8 +92,9 @@ class Oracle:
             self.raw[name] = raw
             layers = {"inhibition_on": i_on, "inhibition_off": i_off, "summation": s, "grouped": g}
             self.maps |= {f"{name}_{layer}": rows for layer, rows in layers.items()}
-        spans = [max(1, math.floor(d * min(ticks, 4) + 0.5)) for d in (1, 2, 3, 4)]
-        motions = [correlate(x, b, spans, [40.0, 30.0, 20.0, 10.0]) for x, b in zip(adapted, self.adapted, strict=True)]
+        motions = [
+            correlate(x, b, spans(ticks), [40.0, 30.0, 20.0, 10.0]) for x, b in zip(adapted, self.adapted, strict=True)
+        ]
         self.maps["motion"] = [[a + b for a, b in zip(*lines, strict=True)] for lines in zip(*motions, strict=True)]
         right, left = potentials(sum(map(sum, self.maps["motion"])), pixels, wiring.k_hs)
         self.luma, self.step_s, self.mean_change = picture, time_s, mean_change

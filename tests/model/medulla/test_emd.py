@@ -7,11 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from oracles.emd import correlate
+from oracles.emd import spans as spans_of
 
 from lobula.errors import ParameterError
 from lobula.model.medulla.emd import EmdParams, emd, stretched
 
 from ..pictures import CLOCK_MS, channel, channels, few, noise, spot
+from ..stamps import HABITS, steps_ms
 
 P = EmdParams()
 ONE = EmdParams(spans_px=(1,), delays_ms=(40.0,))
@@ -38,11 +40,23 @@ def test_golden_too_far_is_not_seen():
 
 @pytest.mark.parametrize(
     ("ticks", "spans"),
-    [(1.0, (1, 2, 3, 4)), (2.0, (2, 4, 6, 8)), (1.2, (1, 2, 4, 5)), (3.0, (3, 6, 9, 12)), (4.0, (4, 8, 12, 16)),
-     (7.0, (4, 8, 12, 16)), (1.55, (2, 3, 5, 6)), (0.3, (1, 1, 1, 1))],
+    [(1.0, (1, 2, 3, 4)), (2.0, (2, 4, 6, 8)), (1.2, (1, 3, 4, 5)), (3.0, (3, 6, 9, 12)), (4.0, (4, 8, 12, 16)),
+     (7.0, (4, 8, 12, 16)), (1.55, (2, 3, 5, 6)), (0.3, (1, 1, 1, 1)), (0.05, (1, 1, 1, 1)), (2.5, (3, 5, 8, 10)),
+     (1.09, (1, 2, 3, 4)), (1.11, (1, 3, 4, 5)), (1.34, (1, 3, 4, 5)), (1.36, (2, 3, 5, 6))],
 )  # fmt: skip
-def test_golden_spans_of_slow_steps(ticks, spans):  # to the nearest pixel; from 4 ticks on no further
+def test_golden_spans_of_slow_steps(ticks, spans):  # of quarter ticks, to the nearest pixel; from 4 on no further
     assert stretched((1, 2, 3, 4), ticks) == spans
+
+
+@pytest.mark.parametrize(
+    "hz", [7.5, 8, 10, 12, 12.5, 15, 16, 18, 20, 23.976, 24, 25, 29.97, 30, 40, 48, 50, 60, 100, 120]
+)
+def test_a_steady_source_has_steady_spans(hz):
+    """However its stamps are rounded, and at the largest picture that kernels grow with."""
+    spans = {
+        stretched((1, 2, 3, 4, 16, 64), dt_ms / CLOCK_MS) for habit in HABITS for dt_ms in steps_ms(hz, 200, habit)
+    }
+    assert len(spans) == 1
 
 
 def test_long_step_prefers_the_same_speed():
@@ -53,11 +67,10 @@ def test_long_step_prefers_the_same_speed():
 
 
 @pytest.mark.parametrize("seed", range(3))
-@pytest.mark.parametrize("ticks", [1.0, 2.0])
+@pytest.mark.parametrize("ticks", [1.0, 1.2, 2.0])
 def test_agrees_with_the_oracle(seed, ticks):
     now, before = noise(seed, high=3.0), noise(seed + 10, high=3.0)
-    spans = [round(d * ticks) for d in (1, 2, 3, 4)]
-    slow = np.array(correlate(now.tolist(), before.tolist(), spans, [40.0, 30.0, 20.0, 10.0]))
+    slow = np.array(correlate(now.tolist(), before.tolist(), spans_of(ticks), [40.0, 30.0, 20.0, 10.0]))
     motion = emd(now, before, P, CLOCK_MS, ticks)
     assert motion.image == pytest.approx(slow, abs=1e-4)
     assert motion.total == pytest.approx(slow.sum(), abs=1e-4)
