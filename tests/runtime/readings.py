@@ -25,10 +25,10 @@ class Network:
     """Answers with a collision in the frame numbers of ``alarms``."""
 
     def __init__(self, alarms=()):
-        self.alarms, self.resets, self.turning = set(alarms), 0, []
+        self.alarms, self.resets, self.rates_deg_s = set(alarms), 0, []
 
-    def step(self, frame: Frame, *, turning: bool = False) -> Reading:
-        self.turning.append(turning)
+    def step(self, frame: Frame, *, yaw_rate_deg_s: float | None = None) -> Reading:
+        self.rates_deg_s.append(yaw_rate_deg_s)
         return reading(frame.time_s, frame.index in self.alarms)
 
     def reset(self) -> None:

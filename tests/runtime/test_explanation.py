@@ -62,6 +62,14 @@ def test_the_window_holds_the_last_200_ms_spike_by_spike():
     assert found.lgmd == pytest.approx(min(sums))
 
 
+def test_a_turn_keeps_it_from_deciding():
+    movie = MOVIES["approach"]
+    with lobula.open(movie) as source:
+        found = explain(source, lobula.Network(), 2.0, yaw_rate_deg_s=lambda time_s: 90.0 if time_s > 1.95 else 0.0)
+    assert found.reading.state == "turning"
+    assert found.verdict == "no collision: 0 ms since the last turn, 67 are needed"
+
+
 def test_warming_up_is_said_first():
     assert explained(MOVIES["approach"], 0.1).verdict == "no collision: 100 ms since the start, 200 are needed"
 

@@ -7,7 +7,7 @@ import errno
 import numpy as np
 import pytest
 
-from lobula.errors import FrameSourceError, OutputError, TimeError
+from lobula.errors import FrameSourceError, OutputError, ParameterError, TimeError
 from lobula.frames import open as open_frames
 from lobula.runtime import loop
 from lobula.runtime.loop import run, unbegun_summary
@@ -124,11 +124,31 @@ def test_a_fault_of_our_own_is_raised_after_the_outputs_were_closed():
     assert source.closed == 1
 
 
-def test_turning_and_the_bar_are_passed_on():
-    network, seen = Network(), []
-    outcome_of(Source(frames(4)), [], network, turning=lambda frame: frame.index == 2, on_frame=lambda: seen.append(1))
-    assert network.turning == [False, False, True, False]
+def test_every_frame_moves_the_bar():
+    seen = []
+    outcome_of(Source(frames(4)), [], on_frame=lambda: seen.append(1))
     assert len(seen) == 4
+
+
+def test_the_network_is_told_the_yaw_rate_of_each_frames_time():
+    network = Network()
+    outcome_of(Source(frames(4)), [], network, yaw_rate_deg_s=lambda time_s: 30 * time_s)
+    assert network.rates_deg_s == pytest.approx([0, 1, 2, 3])
+    outcome_of(Source(frames(2)), [], network)
+    assert network.rates_deg_s[4:] == [None, None]
+
+
+@pytest.mark.parametrize(("known_until_s", "status", "code"), [(-1, "refused", 2), (0.05, "source_failed", 3)])
+def test_a_frame_without_a_yaw_rate(known_until_s, status, code):
+    def rate(time_s):
+        if time_s > known_until_s:
+            raise ParameterError("no rate")
+        return 0.0
+
+    sink = Sink()
+    outcome, _ = outcome_of(Source(frames(9)), [sink], yaw_rate_deg_s=rate)
+    assert (outcome.summary["status"], outcome.exit_code, outcome.message) == (status, code, "no rate")
+    assert sink.calls.count("close") == 1
 
 
 def live(monkeypatch, script, network=None):

@@ -35,6 +35,7 @@ def explain(
     mask: o.Mask = None,
     flip: o.Flip = None,
     rotate: o.Rotate = 0,
+    yaw: o.Yaw = None,
     start: o.Start = None,
     stride: o.Stride = 1,
     rate: o.Rate = None,
@@ -44,18 +45,20 @@ def explain(
     from ..model.scaling import scaled
     from ..runtime.explanation import explain as explain_frame
     from ..runtime.opening import open as open_frames
+    from ..runtime.yaw import read_yaw
     from .destinations import check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
 
-    check_files({"--out": out}, {"source": source, "mask": mask, "settings file": config})
+    check_files({"--out": out}, {"source": source, "mask": mask, "yaw file": yaw, "settings file": config})
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     view = o.view(size, fit, roi, mask, flip, rotate)
     params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
     network = Network(params, engine=engine)
+    rate_deg_s = None if yaw is None else read_yaw(yaw).at
     with open_frames(source, **view, start_s=start, stride=stride, rate_hz=rate) as frames:
-        found = explain_frame(frames, network, at)
+        found = explain_frame(frames, network, at, yaw_rate_deg_s=rate_deg_s)
         about = {
             "source": frames.name,
             "preset": chosen.preset,

@@ -38,6 +38,11 @@ Mask = Annotated[Path | None, typer.Option(metavar="FILE.png", help="white where
 Flip = Annotated[str | None, typer.Option(metavar="h|v|hv", help="mirror the picture")]
 Rotate = Annotated[int, typer.Option(metavar="DEG", help="0, 90, 180 or 270 degrees clockwise")]
 
+Yaw = Annotated[
+    Path | None,
+    typer.Option(metavar="FILE.csv", help="how the camera itself turns, time_s,yaw_deg_s: no decision meanwhile"),
+]
+
 Start = Annotated[float | None, typer.Option(metavar="S", help="first time looked at, s")]
 End = Annotated[float | None, typer.Option(metavar="S", help="end of the time looked at, s")]
 Stride = Annotated[int, typer.Option(metavar="N", help="every N-th frame")]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import LobulaError
+from ..errors import LobulaError, ParameterError
 from . import options as o
 from .call import new_app
 from .progress import Screen, screen
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from ..frames import FrameSource
     from ..model.network import NetworkParams
     from ..runtime.sinks import Sink
+    from ..runtime.yaw import YawRecord
 
 app = new_app()
 
@@ -44,6 +45,7 @@ def run(
     mask: o.Mask = None,
     flip: o.Flip = None,
     rotate: o.Rotate = 0,
+    yaw: o.Yaw = None,
     start: o.Start = None,
     end: o.End = None,
     stride: o.Stride = 1,
@@ -63,6 +65,7 @@ def run(
     from ..runtime.loop import unbegun_summary
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.opening import open as open_frames
+    from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
     from .settings import choose
 
@@ -71,24 +74,28 @@ def run(
         view = o.view(size, fit, roi, mask, flip, rotate)
         params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
         network = Network(params, engine=engine)
+        turns = None if yaw is None else read_yaw(yaw)
         outputs = {"--trace": trace, "--annotate": annotate}
         if report is not None:
             check_folder("--report", report)
             outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
-        check_files(outputs, {"source": source, "mask": mask, "settings file": config}, made=report)
+        check_files(outputs, {"source": source, "mask": mask, "yaw file": yaw, "settings file": config}, made=report)
         files = _file_sinks(trace, annotate, report)
         frames = open_frames(
             source, **view, start_s=start, end_s=end, stride=stride,
             max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
         )  # fmt: skip
+        if turns is not None and frames.live:
+            frames.close()
+            raise ParameterError(f"--yaw {yaw}: {frames.name} is live: must be a recording, whose times are known")
     except (LobulaError, Interrupted) as error:
         if json:
             status = "interrupted" if isinstance(error, Interrupted) else "refused"
             NdjsonSink(sys.stdout).close(unbegun_summary(status, str(error)))
         raise
     with frames, screen(frames.frame_count, Path(frames.name).name) as here:
-        return _watch(frames, params, chosen.preset, network, files, json, here)
+        return _watch(frames, params, chosen.preset, network, turns, files, json, here)
 
 
 def _watch(
@@ -96,6 +103,7 @@ def _watch(
     params: NetworkParams,
     preset: str,
     network: Network,
+    turns: YawRecord | None,
     files: list[Sink],
     json: bool,
     here: Screen,
@@ -113,7 +121,8 @@ def _watch(
     for note in told:
         here.say(f"lobula: {note}")
     outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
-    outcome = run_loop(frames, network, outputs, header, on_frame=here.advance)
+    rate = None if turns is None else turns.at
+    outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, on_frame=here.advance)
     for note in frames.notes[len(told) :]:
         here.say(f"lobula: {note}")
     if outcome.message:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -73,8 +73,16 @@ class Explanation:
         )
 
 
-def explain(source: FrameSource, network: Network, at_s: float) -> Explanation:
+def explain(
+    source: FrameSource,
+    network: Network,
+    at_s: float,
+    *,
+    yaw_rate_deg_s: Callable[[float], float] | None = None,
+) -> Explanation:
     """Run ``network`` from the first frame of ``source`` to the one nearest ``at_s`` and explain that one.
+
+    ``yaw_rate_deg_s`` gives the rate at which the camera itself turned at a frame's time, s.
 
     Raises
     ------
@@ -87,7 +95,8 @@ def explain(source: FrameSource, network: Network, at_s: float) -> Explanation:
         raise ParameterError(f"at {at_s:g} s: must be a time of 0 s or more")
     for frame, following in _with_following(source):
         wanted = following is None or abs(frame.time_s - at_s) <= abs(following.time_s - at_s)
-        reading = network.step(frame, taps=TAPS if wanted else ())
+        rate_deg_s = None if yaw_rate_deg_s is None else yaw_rate_deg_s(frame.time_s)
+        reading = network.step(frame, yaw_rate_deg_s=rate_deg_s, taps=TAPS if wanted else ())
         if wanted:
             gap_s = max(1.0 / source.fps if source.fps else 0.0, 0.1)
             if following is None and at_s > frame.time_s + gap_s:

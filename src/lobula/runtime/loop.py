@@ -27,7 +27,7 @@ DONE, REFUSED, FAILED = 0, 2, 3
 class Stepper(Protocol):
     """What the loop asks of a network."""
 
-    def step(self, image: Frame, /, *, turning: bool = False) -> Reading:
+    def step(self, image: Frame, /, *, yaw_rate_deg_s: float | None = None) -> Reading:
         """Advance by one frame."""
 
     def reset(self) -> None:
@@ -48,7 +48,7 @@ def run(
     outputs: Outputs,
     header: Record,
     *,
-    turning: Callable[[Frame], bool] | None = None,
+    yaw_rate_deg_s: Callable[[float], float] | None = None,
     on_frame: Callable[[], None] | None = None,
 ) -> Outcome:
     """Run ``network`` over ``source`` to its end and return the outcome.
@@ -56,7 +56,7 @@ def run(
     Parameters
     ----------
     header : as ``run_header`` gives it; handed to every output
-    turning : says of a frame whether the camera itself turned while it was taken
+    yaw_rate_deg_s : gives the rate at which the camera itself turned at a frame's time, s
     on_frame : called after each frame, for a progress bar
 
     A source or an output that fails, Ctrl-C and SIGTERM end the run with a summary that says so; only a fault of
@@ -66,7 +66,7 @@ def run(
     with Interrupts() as interrupts:
         try:
             outputs.open(header)
-            watch = _Watch(source, network, turning)
+            watch = _Watch(source, network, yaw_rate_deg_s)
             for frame in interrupts.between(_arrivals(source)):
                 if frame is None:
                     outputs.events(watch.silence(tally))
@@ -105,9 +105,9 @@ def _arrivals(source: FrameSource) -> Iterator[Frame | None]:
 class _Watch:
     """Steps the network and tells stillness of the scene from a source that gives nothing new."""
 
-    def __init__(self, source: FrameSource, network: Stepper, turning: Callable[[Frame], bool] | None) -> None:
+    def __init__(self, source: FrameSource, network: Stepper, yaw_rate_deg_s: Callable[[float], float] | None) -> None:
         self._network = network
-        self._turning = turning
+        self._yaw_rate_deg_s = yaw_rate_deg_s
         self._frozen = Staleness() if source.live else None
         self._stale = False
         self._arrived = time.monotonic()
@@ -119,11 +119,9 @@ class _Watch:
         if self._stale and not stale:
             self._network.reset()  # what moved meanwhile would read as one huge jump
         self._stale = stale
+        rate_deg_s = None if self._yaw_rate_deg_s is None else self._yaw_rate_deg_s(frame.time_s)
         begun = time.perf_counter()
-        if self._turning is None:
-            reading = self._network.step(frame)
-        else:
-            reading = self._network.step(frame, turning=self._turning(frame))
+        reading = self._network.step(frame, yaw_rate_deg_s=rate_deg_s)
         tally.count(frame, time.perf_counter() - begun)
         if stale:
             reading = reading._replace(state="stale")
