@@ -1,14 +1,11 @@
 """One setting, one line: value, unit, range, meaning and origin together.
 
 The command's flags and help, the docs table, validation and the tuning ranges read the same line, so they cannot
-disagree.
+disagree. Every start pays for what is imported here, so what only some calls need is imported by them.
 """
 
 from __future__ import annotations
 
-import difflib
-import hashlib
-import json
 import typing
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields, is_dataclass, replace
@@ -143,6 +140,8 @@ def parse_setting(text: str) -> dict[str, Any]:
     ------
     ParameterError : the text is not ``path=value``
     """
+    import json
+
     path, equals, raw = text.partition("=")
     if not equals or not path.strip() or not raw.strip():
         raise ParameterError(f"--set {text!r}: must be PATH=VALUE, such as lamina.dog.sigma_px=2")
@@ -157,11 +156,16 @@ def parse_setting(text: str) -> dict[str, Any]:
 
 def settings_hash(params: Params) -> str:
     """Twelve hexadecimal digits that change when any value changes; stored in every output."""
+    import hashlib
+    import json
+
     return hashlib.sha256(json.dumps(to_dict(params), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return the end of a message about an unknown ``name``: the known one nearest to it, or all of them."""
+    import difflib
+
     known = list(known)
     longer = [other for other in known if name and other.startswith(name)]
     close = longer or difflib.get_close_matches(name, known, n=1, cutoff=0.5)

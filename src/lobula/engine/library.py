@@ -5,22 +5,21 @@ from __future__ import annotations
 import ctypes
 import os
 from functools import cache
-from pathlib import Path
 
 from ..errors import ParameterError
 from .structures import SIGNATURES, CoreParams
 
 ABI = 1
-FILE = Path(__file__).with_name("liblobula.so")
+FILE = os.path.join(os.path.dirname(__file__), "liblobula.so")
 """Where ``pip install`` puts it, whatever the system calls its shared libraries."""
 
 
 @cache
 def _load() -> ctypes.CDLL | str:
-    if not FILE.exists():
+    if not os.path.exists(FILE):
         return "it was not built: no C compiler was found when lobula was installed"
     try:
-        library = ctypes.CDLL(str(FILE))
+        library = ctypes.CDLL(FILE)
         for name, (result, arguments) in SIGNATURES.items():
             function = getattr(library, name)
             function.restype, function.argtypes = result, arguments

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Collection, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from numbers import Real
 from typing import Any, Literal
 
@@ -180,6 +179,8 @@ class Network:
             self._start(shape, count)
         trace = np.empty((count, length), TRACE_DTYPE)
         if self.engine == "core" and count > 1 and threads > 1:
+            from concurrent.futures import ThreadPoolExecutor  # a third of the start-up, and seldom needed
+
             with ThreadPoolExecutor(min(threads, count)) as pool:
                 lanes = [range(i, count, threads) for i in range(min(threads, count))]
                 list(pool.map(lambda lane: self._run_streams(lane, block, times, turns, trace), lanes))
