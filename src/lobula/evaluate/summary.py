@@ -7,7 +7,7 @@ import statistics
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from .intervals import Interval, garwood, wilson
+from ..intervals import Interval, garwood, wilson
 from .scoring import ClipScore
 
 
