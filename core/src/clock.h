@@ -4,6 +4,14 @@
 
 #include "lobula.h"
 
+/* Stamps are rounded: limits in ms stand this much to the side, and of two frames as near to a tick's end the first is
+ * taken. */
+#define SLACK_MS 1.0
+#define NEAREST 0.97
+
+/* Ticks rounded to quarters, up from 0.4 of one: the same for each step of a steady source, however it rounds. */
+double whole_quarters(double ticks);
+
 typedef enum { BEAT_START, BEAT_WAIT, BEAT_TICK } beat;
 
 /* What the frame stamped `time_s` is; remembers it. */

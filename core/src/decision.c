@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "clock.h"
+
 /* A sum that loses nothing to rounding on the way (Knuth's two-sum): half a spike is where decisions turn. */
 typedef struct {
     double sum, rest;
@@ -19,7 +21,7 @@ static double whole_spikes(const exact *a) { return floor(a->sum + a->rest + 0.5
 static void forget_old(lobula_state *s, double time_s) {
     lobula_decision_entry *window = state_window(s);
     int old = 0;
-    while (old < s->window_count && (time_s - window[old].time_s) * 1000.0 > s->params.decision.window_ms - 1.0) old++;
+    while (old < s->window_count && (time_s - window[old].time_s) * 1000.0 > s->params.decision.window_ms - SLACK_MS) old++;
     if (old) memmove(window, window + old, (size_t)(s->window_count - old) * sizeof *window);
     s->window_count -= old;
 }
@@ -43,6 +45,7 @@ static int holds(const lobula_state *s, const lobula_decision_entry *window) {
 
 void decision_step(lobula_state *s, double time_s, const int32_t spikes[4], double weight) {
     lobula_decision_entry *window = state_window(s);
+    weight = whole_quarters(weight);
     int lptc = spikes[2] > spikes[3] ? spikes[2] : spikes[3];
     lobula_decision_entry entry = {time_s, weight * spikes[0], weight * spikes[1], weight * lptc};
     forget_old(s, time_s);
@@ -58,5 +61,5 @@ void decision_step(lobula_state *s, double time_s, const int32_t spikes[4], doub
 }
 
 int decision_collision(const lobula_state *s, double time_s) {
-    return s->now.has_held && (time_s - s->now.held_s) * 1000.0 < s->params.decision.end_ms;
+    return s->now.has_held && (time_s - s->now.held_s) * 1000.0 <= fmax(0.0, s->params.decision.end_ms - SLACK_MS);
 }

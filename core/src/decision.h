@@ -4,7 +4,7 @@
 
 #include "state.h"
 
-/* Add one step's spikes, weight = dt / clock, and note whether the rule holds. */
+/* Add one step's spikes, weight = dt / clock in whole quarters, and note whether the rule holds. */
 void decision_step(lobula_state *s, double time_s, const int32_t spikes[4], double weight);
 
 int decision_collision(const lobula_state *s, double time_s);

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "clock.h"
+
 /* model.filters */
 static double low_pass_share(double clock_ms, double tau_ms) { return clock_ms / (clock_ms + tau_ms); }
 
@@ -86,8 +88,7 @@ static double arousal(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, dou
 
 /* model/medulla/emd.py: in a long step things go further. */
 static int stretched(int span_px, double ticks) {
-    int quarters = (int)floor(4.0 * (ticks < MAX_STRETCH ? ticks : MAX_STRETCH) + 0.6);
-    int far = (2 * span_px * quarters + 4) / 8;
+    int far = (int)floor(span_px * whole_quarters(ticks < MAX_STRETCH ? ticks : MAX_STRETCH) + 0.5);
     return far < 1 ? 1 : far;
 }
 

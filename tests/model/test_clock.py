@@ -7,9 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lobula.errors import ParameterError
-from lobula.model.clock import Beat, Clock, ClockParams
+from lobula.model.clock import Beat, Clock, ClockParams, whole_quarters
 
 from .pictures import few
+from .stamps import HABITS, written
 
 P = ClockParams()
 MOVES, RESTS = (5.0, 60.0), (0.0, 0.0)
@@ -64,8 +65,9 @@ def test_golden_dropped_frame_is_one_long_step():
     assert walk([0, 33.3, 66.7, 133.3, 166.7]) == ["start", 33.3, 33.4, 66.6, 33.4]
 
 
-def test_golden_gap_starts_afresh():  # 499 ms is a long step, 501 a new start
-    assert walk([0, 33, 532, 565, 1066, 1099]) == ["start", 33, 499, 33, "start", 33]
+def test_golden_gap_starts_afresh():  # 500 ms, and one more for rounding, is a long step, 502 a new start
+    assert walk([0, 33, 533, 566, 1068, 1101]) == ["start", 33, 500, 33, "start", 33]
+    assert walk([0, 500.9, 1002]) == ["start", 500.9, "start"]
 
 
 def test_golden_frame_that_comes_too_early_waits():  # 34 and then 5 ms: 5 + 2.5 < 33.3; then 33 since the tick
@@ -82,6 +84,39 @@ def test_golden_10_hz_in_a_60_hz_file():
     assert walk(frames(60, 13), changes) == [
         "start", "wait", "held", "wait", "held", "wait", 100, "wait", "held", "wait", "held", "wait", 100,
     ]  # fmt: skip
+
+
+def test_golden_two_frames_as_near_to_the_end_of_a_tick():
+    # 45 Hz: 22.2 ms and 44.4 ms are each 11.1 off; 75 Hz: 26.7 and 40 are 6.7 off: the first of them is taken
+    assert walk(frames(45, 4)) == ["start", 22.22, 22.22, 22.22]
+    assert walk(frames(75, 7)) == ["start", "wait", 26.67, "wait", 26.67, "wait", 26.67]
+
+
+@pytest.mark.parametrize("changes", [MOVES, RESTS])
+@pytest.mark.parametrize("hz", [2, 5, 10, 12, 15, 20, 24, 25, 29.97, 30, 40, 45, 48, 50, 60, 75, 90, 100, 120])
+def test_the_rounding_of_stamps_moves_no_step(hz, changes):
+    """The same frames start, wait, are held and step, whatever wrote the stamps."""
+    told = [walk([1000 * t for t in written(hz, 100, habit)], changes) for habit in HABITS]
+    kinds = {tuple(x if isinstance(x, str) else "step" for x in seen) for seen in told}
+    assert len(kinds) == 1
+
+
+@pytest.mark.parametrize(
+    ("ticks", "quarters"),
+    [
+        (1.0, 1.0),
+        (0.999, 1.0),
+        (1.02, 1.0),
+        (1.099, 1.0),
+        (1.101, 1.25),
+        (1.2, 1.25),
+        (2.5, 2.5),
+        (0.09, 0.0),
+        (7.9, 8),
+    ],
+)
+def test_golden_quarters_of_ticks(ticks, quarters):
+    assert whole_quarters(ticks) == quarters
 
 
 def test_golden_still_scene_is_let_through():
@@ -120,10 +155,10 @@ def test_steps_cover_the_time_once(intervals):
 @few
 @given(st.floats(4, 33.3))
 def test_ticks_end_at_the_nearest_frame(interval_ms):
-    """A steady fast source: within half an interval of 33.3 ms."""
+    """A steady fast source: within half an interval of 33.3 ms, and 3 % for two that are as near."""
     steps = [dt for dt in walk([interval_ms * k for k in range(40)]) if isinstance(dt, float)]
     assert steps
-    assert max(abs(dt - P.period_ms) for dt in steps) <= 0.5 * interval_ms + 0.01
+    assert max(abs(dt - P.period_ms) for dt in steps) <= 0.5 * interval_ms + 1.01
 
 
 @pytest.mark.parametrize("hz", [15, 25, 30, 60, 120])

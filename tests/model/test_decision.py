@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -12,6 +13,7 @@ from lobula.model.decision import Decision, DecisionParams
 from lobula.types import Spikes
 
 from .pictures import few
+from .stamps import HABITS, written
 
 FRAME_S = 1 / 30
 NEURONS = ("all", "lgmds", "lgmd2")
@@ -92,9 +94,10 @@ def test_golden_long_steps_count_more():
 
 
 def test_golden_sums_are_rounded_to_whole_spikes():
-    assert told([(2, 2), (2, 2)], weight=0.99)[1]  # 3.96
-    assert told([(2, 2), (2, 2)], weight=0.875)[1]  # 3.5 counts as 4
-    assert not told([(2, 2), (2, 2)], weight=0.87)[1]  # 3.48
+    assert told([(2, 2), (2, 2)], weight=0.99)[1]  # 0.99 is one tick: 4
+    assert told([(3, 3), (2, 2)], weight=0.7)[1]  # 0.75 each: 3.75 counts as 4
+    assert not told([(2, 2), (2, 2)], weight=0.84)[1]  # 0.75 each: 3
+    assert told([(1, 1), (2, 2), (4, 4)], weight=0.5)[2]  # 3.5 counts as 4
 
 
 def test_golden_a_collision_lasts_200_ms_after_the_rule():
@@ -102,7 +105,7 @@ def test_golden_a_collision_lasts_200_ms_after_the_rule():
     assert not decision.collision(0.0)
     for t in (0.0, 0.05):
         decision.step(t, Spikes(2, 2), 1.0)
-    assert [decision.collision(t) for t in (0.05, 0.15, 0.249, 0.251)] == [True, True, True, False]
+    assert [decision.collision(t) for t in (0.05, 0.15, 0.2485, 0.25)] == [True, True, True, False]
 
 
 def test_golden_a_collision_starts_again():
@@ -156,6 +159,32 @@ def test_agrees_with_the_oracle(train, neurons, needed):
         decision.step(now_s, Spikes(*spikes), weight)
         assert (decision.held_s == now_s) == rule(history, now_s, neurons, needed)
         assert decision.collision(now_s) == decide(history, now_s, neurons, needed)
+
+
+@pytest.mark.parametrize("hz", [10, 12, 12.5, 15, 16, 20, 23.976, 24, 25, 29.97, 30, 40])
+@pytest.mark.parametrize("seed", range(3))
+def test_the_rounding_of_stamps_decides_nothing(hz, seed):
+    """The rule and the collision, frame by frame, for the same spikes under any habit of writing stamps."""
+    rng = np.random.default_rng(seed)
+    trains = [Spikes(*map(int, rng.choice([0, 0, 0, 0, 1, 2], 4))) for _ in range(400)]
+    told = set()
+    for habit in HABITS:
+        decision, seen, before = Decision(DecisionParams()), [], None
+        for spikes, t in zip(trains, written(hz, len(trains), habit), strict=True):
+            if before is not None:
+                decision.step(t, spikes, (t - before) * 30)
+            before = t
+            seen.append((decision.held_s == t, decision.collision(t)))
+        told.add(tuple(seen))
+    assert len(told) == 1
+    assert len(set(told.pop())) == 3  # it is seen to hold, to last, and to be over
+
+
+def test_golden_a_rule_that_holds_now_is_a_collision():
+    decision = Decision(DecisionParams(end_ms=0.0))
+    for t in (0.0, 0.05):
+        decision.step(t, Spikes(2, 2), 1.0)
+    assert [decision.collision(t) for t in (0.05, 0.06)] == [True, False]
 
 
 @few

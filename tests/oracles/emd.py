@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from .decision import quarters
 from .lamina import share
 
 Rows = list[list[float]]
@@ -25,10 +26,8 @@ def correlate(now: Rows, before: Rows, spans: list[int], delays_ms: list[float])
 
 
 def spans(ticks: float) -> list[int]:
-    """Spans of 1 to 4 px in a step of ``ticks``: the nearest quarter tick, from 0.4 of a quarter the one above."""
-    below = math.floor(4 * min(ticks, 4))
-    quarters = below + (4 * min(ticks, 4) - below >= 0.4)
-    return [max(1, math.floor(Fraction(d * quarters, 4) + Fraction(1, 2))) for d in (1, 2, 3, 4)]
+    """Spans of 1 to 4 px in a step of ``ticks``."""
+    return [max(1, math.floor(d * quarters(min(ticks, 4)) + Fraction(1, 2))) for d in (1, 2, 3, 4)]
 
 
 def potentials(hs: float, pixels: int, k_hs: float) -> tuple[float, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -32,6 +33,22 @@ class ClockParams(Params):
     )
 
 
+SLACK_MS = 1.0
+"""Stamps are rounded, often to a millisecond: what lasts a round number of frames ends at the same frame all the same,
+since each limit in ms stands this much to the side where no frame of a usual rate falls."""
+
+NEAREST = 0.97
+"""Likewise, of two frames as near to the end of a tick (at 45 or 75 Hz) the first is taken: share of a tick."""
+
+
+def whole_quarters(ticks: float) -> float:
+    """Return ``ticks`` rounded to quarters, up from 0.4 of one: the same for each step of a steady source.
+
+    Whatever the rounding of its stamps, that is; no usual frame rate comes near 0.4 of a quarter.
+    """
+    return math.floor(4.0 * ticks + 0.6) / 4.0
+
+
 class Beat(Enum):
     """What to do with a frame."""
 
@@ -59,12 +76,12 @@ class Clock:
     def beat(self, time_s: float) -> Beat:
         """Say what the frame stamped ``time_s`` is. A tick is complete at the frame nearest to its end."""
         before, self.frame_s = self.frame_s, time_s
-        if before is None or (time_s - before) * 1000.0 > self.p.max_gap_ms:
+        if before is None or (time_s - before) * 1000.0 > self.p.max_gap_ms + SLACK_MS:
             self.tick_s, self.step_s, self.still = time_s, time_s, False
             return Beat.START
         interval_ms, elapsed_ms = (time_s - before) * 1000.0, (time_s - self.tick_s) * 1000.0
         # The next frame would come closer to the end of the tick than this one: wait for it.
-        if elapsed_ms + 0.5 * interval_ms < self.p.period_ms:
+        if elapsed_ms + 0.5 * interval_ms < NEAREST * self.p.period_ms:
             return Beat.WAIT
         self.tick_s = time_s
         return Beat.TICK
@@ -78,7 +95,7 @@ class Clock:
         """
         elapsed_ms = (time_s - self.step_s) * 1000.0
         repeats = self.p.repeats and mean_abs < self.p.repeat_mean_grey and max_abs < self.p.repeat_max_grey
-        if repeats and not self.still and elapsed_ms <= self.p.repeat_hold_ms:
+        if repeats and not self.still and elapsed_ms <= self.p.repeat_hold_ms + SLACK_MS:
             return None
         self.still = repeats
         self.step_s = time_s

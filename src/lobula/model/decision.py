@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from ..params import Params, param
 from ..types import Spikes
+from .clock import SLACK_MS, whole_quarters
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,13 +66,14 @@ class Decision:
         self.window.clear()
 
     def step(self, time_s: float, spikes: Spikes, weight: float) -> None:
-        """Add one step's spikes, ``weight`` = dt / clock, and note whether the rule holds.
+        """Add one step's spikes, ``weight`` = dt / clock in whole quarters, and note whether the rule holds.
 
         Over the last ``window_ms``: A = min(LGMD-1, LGMD-2) spikes, B = LPTC spikes, the larger of the two sides.
         The rule holds while A >= ``collision_spikes`` and A > ``lptc_weight`` B.
 
         Source: paper Sec. II-E and Algorithm 1; window and count from published code (docs/sources.md).
         """
+        weight = whole_quarters(weight)
         lptc = max(spikes.lptc_r, spikes.lptc_l)
         self.window.append(Entry(time_s, weight * spikes.lgmd1, weight * spikes.lgmd2, weight * lptc))
         if self.holds(time_s):
@@ -79,17 +81,17 @@ class Decision:
 
     def collision(self, time_s: float) -> bool:
         """Whether the rule held within the last ``end_ms``."""
-        return self.held_s is not None and (time_s - self.held_s) * 1000.0 < self.p.end_ms
+        return self.held_s is not None and (time_s - self.held_s) * 1000.0 <= max(0.0, self.p.end_ms - SLACK_MS)
 
     def evidence(self, time_s: float) -> tuple[float, float]:
         """Return A and B over the window that ends at ``time_s``: LGMD spikes after the AND, LPTC spikes."""
-        while self.window and (time_s - self.window[0].time_s) * 1000.0 > self.p.window_ms - 1.0:
+        while self.window and (time_s - self.window[0].time_s) * 1000.0 > self.p.window_ms - SLACK_MS:
             self.window.popleft()
         lgmd1, lgmd2, lptc = (math.fsum(e[i] for e in self.window) for i in (1, 2, 3))
         return (lgmd2 if self.p.neurons == "lgmd2" else min(lgmd1, lgmd2)), lptc
 
     def holds(self, time_s: float) -> bool:
-        """Whether the rule holds now. Weighted sums are rounded to whole spikes, so jitter of the stamps is nothing.
+        """Whether the rule holds now. Weighted sums are rounded to whole spikes.
 
         One step is never enough, however long: an LPTC compares two steps, so the LGMDs would win each first one. On
         the clock itself this changes nothing, where ``collision_spikes`` takes two steps to collect.

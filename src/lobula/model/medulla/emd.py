@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import ParameterError
 from ...params import Params, param
 from ...types import Image
+from ..clock import whole_quarters
 from ..filters import low_pass_share
 
 
@@ -54,13 +55,9 @@ class Motion(NamedTuple):
 
 
 def stretched(spans_px: tuple[int, ...], ticks: float) -> tuple[int, ...]:
-    """Return the spans for a step of ``ticks``, px, at least 1.
-
-    The ticks are rounded to quarters first, so that the spans of a steady source do not come and go with the rounding
-    of its time stamps. Quarters round up from 0.4, which no usual rate comes near.
-    """
-    quarters = math.floor(4.0 * min(ticks, MAX_STRETCH) + 0.6)
-    return tuple(max(1, (2 * span * quarters + 4) // 8) for span in spans_px)
+    """Return the spans for a step of ``ticks``, in whole quarters, px, at least 1."""
+    times = whole_quarters(min(ticks, MAX_STRETCH))
+    return tuple(max(1, math.floor(span * times + 0.5)) for span in spans_px)
 
 
 def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: float) -> Motion:
