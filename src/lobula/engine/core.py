@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import ParameterError
 from ..model.network import TAPS, NetworkParams
 from ..model.state import NUMBERS, PLANES, TIMES, StateDict, check_state
 from ..types import NEURONS, STATES, TRACE_DTYPE, Image, Reading, Spikes
@@ -32,11 +33,15 @@ READING_DTYPE = np.dtype(
 
 STATE_NAMES = np.array(STATES)
 
+HEADER_BYTES = 12
+"""Start of ``lobula_state``: magic number, ABI and instruction set, the same for all states that are exchangeable."""
+
 
 class Memory:
     """``size`` bytes aligned for the core, and their address."""
 
     def __init__(self, size: int) -> None:
+        self.size = size
         self._bytes = np.empty(size + ALIGN, np.uint8)
         self.address = -(-self._bytes.ctypes.data // ALIGN) * ALIGN
 
@@ -135,6 +140,23 @@ class CoreNetwork:
         if status:
             raise RuntimeError(f"the C core failed with code {status}")
         return _trace(readings)
+
+    def block(self) -> NDArray[np.uint8]:
+        """Return a copy of everything it remembers as the core holds it, in one piece."""
+        return np.frombuffer(ctypes.string_at(self._state.address, self._state.size), np.uint8)
+
+    def put_block(self, block: NDArray[np.uint8]) -> None:
+        """Continue from a ``block`` of a network with the same settings and size.
+
+        Raises
+        ------
+        ParameterError : it comes from another build, processor or size
+        """
+        block = np.ascontiguousarray(block, np.uint8)
+        own = ctypes.string_at(self._state.address, HEADER_BYTES)
+        if block.shape != (self._state.size,) or block[:HEADER_BYTES].tobytes() != own:
+            raise ParameterError("the state of a network: was saved by another build, processor or image size")
+        ctypes.memmove(self._state.address, block.ctypes.data, self._state.size)
 
     def state_dict(self) -> StateDict:
         """Return a copy of everything it remembers; ``model.state.NAMES`` lists the entries."""
