@@ -1,0 +1,91 @@
+"""The last seconds of a run: what every robot saw, kept so that it can be rendered and judged again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Past(NamedTuple):
+    """What one robot saw up to its last frame, oldest first; T frames, R robots.
+
+    ``state`` is the controller's from before the first of these frames, None where it keeps none. ``poses`` are those
+    the eye rendered: x, y in cm and heading in rad. ``turning`` is what the controllers were told. ``keys`` and
+    ``light`` belong to this robot's frames; ``potentials`` of the four neurons, in the order of ``NEURONS``, are None
+    where the controller has none. ``velocities_cm_s`` are those at the last frame, 0 for robots that stop or turn.
+    """
+
+    state: Any
+    times_s: NDArray[np.float64]  # (T,)
+    poses: NDArray[np.float64]  # (T, R, 3)
+    turning: NDArray[np.bool_]  # (T, R)
+    keys: NDArray[np.uint64]  # (T,)
+    light: NDArray[np.float64]  # (T,)
+    velocities_cm_s: NDArray[np.float64]  # (R, 2)
+    potentials: NDArray[np.float64] | None  # (T, R, 4)
+    first_tick: int
+
+
+class History:
+    """Poses, queues and potentials of the last ``length`` ticks, side by side in memory, and saved controller states.
+
+    Each row is written to an array of twice the length; where its end is reached, the newest rows move to the front.
+    """
+
+    def __init__(self, length: int, robots: int) -> None:
+        self.length = length
+        self._poses = np.zeros((2 * length, robots, 3))
+        self._turning = np.zeros((2 * length, robots), np.bool_)
+        self._potentials = np.full((2 * length, robots, 4), np.nan)
+        self._rows = 0
+        self.last_tick = -1
+        self.states: list[tuple[int, list[Any]]] = []
+        """(tick, the state of each robot before the frame of that tick), oldest first."""
+
+    def add(
+        self, tick: int, poses: NDArray[np.float64], turning: NDArray[np.bool_], potentials: NDArray[np.float64] | None
+    ) -> None:
+        """Note the frame of ``tick``, the next one after the last."""
+        row = self._rows
+        if row == 2 * self.length:
+            for kept in (self._poses, self._turning, self._potentials):
+                kept[: self.length] = kept[self.length :]
+            row = self.length
+        self._poses[row] = poses
+        self._turning[row] = turning
+        if potentials is not None:
+            self._potentials[row] = potentials
+        self._rows, self.last_tick = row + 1, tick
+
+    def save(self, tick: int, states: list[Any]) -> None:
+        """Keep the controllers' ``states`` from before the frame of ``tick``; drop those the rows do not reach."""
+        self.states = [(at, kept) for at, kept in self.states if at > tick - self.length]
+        self.states.append((tick, states))
+
+    def start_of(self, tick: int) -> tuple[int, list[Any] | None]:
+        """Return the newest saved moment at or before ``tick`` and its states, or the oldest there is."""
+        if not self.states:
+            return max(tick, self.last_tick - min(self._rows, self.length) + 1), None
+        return next((kept for kept in reversed(self.states) if kept[0] <= tick), self.states[0])
+
+    def since(self, tick: int) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.float64]]:
+        """Return poses, queues and potentials of the frames from ``tick`` to the last."""
+        rows = slice(self._rows - (self.last_tick - tick + 1), self._rows)
+        return self._poses[rows].copy(), self._turning[rows].copy(), self._potentials[rows].copy()
+
+    def state(self) -> dict[str, Any]:
+        """Return a copy of everything kept; the controllers' states are shared, they never change."""
+        poses, turning, potentials = self.since(self.last_tick - min(self._rows, self.length) + 1)
+        rows = {"poses": poses, "turning": turning, "potentials": potentials}
+        return {**rows, "last_tick": self.last_tick, "states": [[tick, list(kept)] for tick, kept in self.states]}
+
+    def set_state(self, state: Mapping[str, Any]) -> None:
+        """Continue from ``state``, which ``state()`` gave."""
+        rows = self._rows = len(state["poses"])
+        self._poses[:rows], self._turning[:rows] = state["poses"], state["turning"]
+        self._potentials[:rows] = state["potentials"]
+        self.last_tick = int(state["last_tick"])
+        self.states = [(int(tick), list(kept)) for tick, kept in state["states"]]
