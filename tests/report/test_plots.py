@@ -92,6 +92,6 @@ def test_without_matplotlib_says_what_to_install(monkeypatch: pytest.MonkeyPatch
 def test_import_is_light_and_no_window_is_opened() -> None:
     code = (
         "import sys; import lobula.report.plots as p; assert 'matplotlib' not in sys.modules;"
-        "p._figure(4, 3); assert 'matplotlib.pyplot' not in sys.modules"
+        "p.new_figure(4, 3); assert 'matplotlib.pyplot' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

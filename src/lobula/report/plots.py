@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import MissingExtraError, ParameterError, pip_install
+from ..errors import ParameterError
 from ..types import NEURONS, Frame, Neuron
+from .axes import new_figure, plain
 from .landing import whole_file
 from .palette import LABELS, LIGHT, STATE_LABELS, thresholds
 from .spans import Span, collision_spans, state_spans, thinned
@@ -48,7 +49,7 @@ def plot_trace(trace: NDArray[np.void], about: Mapping[str, Any] | None = None) 
     ParameterError : a trace without rows
     """
     about = about or {}
-    figure = _figure(10.0, 6.2)
+    figure = new_figure(10.0, 6.2)
     column = figure.subplots(4, 1, sharex=True, height_ratios=[3, 3, 1.5, 0.55])
     _draw_column(column, _require_rows(trace, "plot_trace"), about)
     _draw_legends(column, [trace])
@@ -68,7 +69,7 @@ def plot_demo(frames: Sequence[Frame], trace: NDArray[np.void], title: str = "")
 def plot_scenes(scenes: Sequence[Scene], about: Mapping[str, Any] | None = None) -> Figure:
     """Return a figure with one column for each scene: its frames on top, its trace below. Raises as ``plot_trace``."""
     pictures = 6 if len(scenes) == 1 else 3
-    figure = _figure(max(10.0, 4.6 * len(scenes)), 7.2)
+    figure = new_figure(max(10.0, 4.6 * len(scenes)), 7.2)
     grid = figure.add_gridspec(5, len(scenes), height_ratios=[2.6 if len(scenes) == 1 else 2.0, 3, 3, 1.5, 0.55])
     for number, scene in enumerate(scenes):
         trace = _require_rows(scene.trace, scene.title or "plot_demo")
@@ -98,15 +99,6 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
     with whole_file(path) as temporary, salt:
         figure.savefig(temporary, format=kind[1:], dpi=160, facecolor=LIGHT.ground, metadata=dateless)
     return path
-
-
-def _figure(width: float, height: float) -> Figure:
-    try:
-        module = importlib.import_module("matplotlib.figure")
-    except ImportError as error:
-        raise MissingExtraError(f"plots need matplotlib: {pip_install('plot')}") from error
-    figure: Figure = module.Figure(figsize=(width, height), layout="constrained")  # no pyplot: no window, no registry
-    return figure
 
 
 def _require_rows(trace: NDArray[np.void], where: str) -> NDArray[np.void]:
@@ -143,7 +135,7 @@ def _draw_column(
         )
         axes.vlines([span.start_s for span in alarms], low, high, color=LIGHT.collision, linewidth=1.0, zorder=1)
     for axes in column:
-        _plain(axes)
+        plain(axes)
     start_s, end_s = float(trace["time_s"][0]), float(trace["time_s"][-1])
     lgmds.set_xlim(start_s, end_s if end_s > start_s else start_s + 1.0)
     states.set_xlabel("time (s)", color=LIGHT.text)
@@ -250,15 +242,6 @@ def _draw_legends(column: Sequence[Axes], traces: Sequence[NDArray[np.void]]) ->
             borderaxespad=0,
             labelcolor=LIGHT.text,
         )
-
-
-def _plain(axes: Axes) -> None:
-    axes.set_facecolor(LIGHT.ground)
-    axes.grid(visible=True, axis="x", color=LIGHT.line, linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.tick_params(colors=LIGHT.dim, labelsize=8, length=3)
-    axes.spines[["top", "right"]].set_visible(False)
-    axes.spines[["left", "bottom"]].set_color(LIGHT.line)
 
 
 def _title(about: Mapping[str, Any]) -> str:
