@@ -27,7 +27,7 @@ VARIANTS = {
     "v4": ["-march=x86-64", "-mavx512f", "-mavx512vl", "-mavx512bw", "-mavx512dq", "-mavx2", "-mfma",
            "-mprefer-vector-width=512", "-mtune=generic"],
 }  # fmt: skip
-PER_VARIANT = {"sweep.c"}
+PER_VARIANT = {"sweep.c", "eye_sensor.c"}
 
 
 class BuildCore(build_ext):
