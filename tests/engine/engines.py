@@ -48,6 +48,15 @@ def assert_alike(core: np.ndarray, reference: np.ndarray, params: NetworkParams)
         assert core["collision"].tolist() == reference["collision"].tolist()
 
 
+def assert_in_range(trace: np.ndarray) -> None:
+    """The potentials of the paper: LGMDs from one half up, each LPTC on its own side of 0, never both at once."""
+    for lgmd in ("lgmd1", "lgmd2"):
+        assert ((trace[lgmd] >= 0.5) & (trace[lgmd] < 1)).all()
+    assert ((trace["lptc_r"] >= 0) & (trace["lptc_r"] < 1)).all()
+    assert ((trace["lptc_l"] <= 0) & (trace["lptc_l"] > -1)).all()
+    assert (trace["lptc_r"] * trace["lptc_l"] == 0).all()
+
+
 def near_a_step(potential: float, gain: float, threshold: float) -> bool:
     """Whether floor(exp(gain (|U| - threshold))) changes within 1e-4 of U."""
     low, high = (math.floor(math.exp(gain * (abs(potential) + d - threshold))) for d in (-1e-4, 1e-4))

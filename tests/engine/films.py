@@ -57,6 +57,38 @@ def drifting(height: int, width: int, *, seed: int = 0, frames: int = 16) -> Fil
     return Film(np.array(images, np.float32), at_hz(30, frames))
 
 
+def growing(height: int = 36, width: int = 52, *, frames: int = 30) -> Film:
+    """A dark box grows on a textured wall, from the first frame on: all four neurons have something to say."""
+    y, x = np.mgrid[:height, :width].astype(float)
+    wall = 150 + 30 * np.sin(x / 3.1) * np.cos(y / 4.3)
+    half = [3 + 0.02 * t**2.2 for t in range(frames)]
+    inside = [(abs(x - width / 2.2) < h) & (abs(y - height / 1.9) < h) for h in half]
+    return Film(np.array([np.where(box, 30.0, wall) for box in inside]).astype(np.uint8), at_hz(30, frames))
+
+
+def faint_noise(height: int = 36, width: int = 52, *, frames: int = 30) -> Film:
+    """A camera's noise on grey, as floats."""
+    rng = np.random.default_rng(2)
+    return Film((128 + rng.normal(0, 3, (frames, height, width))).astype(np.float32), at_hz(30, frames))
+
+
+def lamps(height: int = 36, width: int = 52, *, frames: int = 30) -> Film:
+    """A noisy scene under a lamp that is switched every sixth frame."""
+    y, x = np.mgrid[:height, :width].astype(float)
+    rng = np.random.default_rng(3)
+    scene = 100 + 40 * np.sin(x / 5) * np.cos(y / 7)
+    light = [1.0 + 0.5 * (t // 6 % 2) for t in range(frames)]
+    images = np.array([scene * gain + rng.normal(0, 1.5, (height, width)) for gain in light])
+    return Film(np.clip(images, 0, 255).astype(np.uint8), at_hz(30, frames))
+
+
+def checks(height: int = 36, width: int = 52, *, frames: int = 30) -> Film:
+    """Checks of 0 and 255 that swap in every frame."""
+    y, x = np.mgrid[:height, :width]
+    images = np.array([255 * ((x // 5 + y // 3 + t) % 2) for t in range(frames)])
+    return Film(images.astype(np.uint8), at_hz(30, frames))
+
+
 def one_pixel() -> Film:
     images = np.zeros((12, 24, 32), np.uint8)
     for t, (row, column) in enumerate([(0, 0), (23, 31), (12, 16), (12, 17), (12, 18), (0, 31), (23, 0), (5, 5)]):
@@ -110,6 +142,11 @@ NASTY: dict[str, Callable[[], Film]] = {
     "noise-least": lambda: noise(24, 32, seed=1),
     "noise-odd": lambda: noise(25, 33, seed=2, dtype=np.float32),
     "noise-tall": lambda: noise(120, 32, seed=3),
+    "faint-noise": faint_noise,
+    "growing": growing,
+    "shrinking": lambda: growing()._replace(images=growing().images[::-1]),
+    "lamps": lamps,
+    "checks": checks,
     "drifting": lambda: drifting(77, 101),
     "constant": lambda: Film(np.full((12, 24, 32), 127, np.uint8), at_hz(30, 12)),
     "one-pixel": one_pixel,

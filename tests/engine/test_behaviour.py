@@ -1,94 +1,103 @@
-"""The claims of the paper and the refusals that guard them, through each engine alike."""
+"""What the network says of a movie, on both engines: the claims of the paper, the named states, the maps."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-import lobula
 from lobula import stimuli
 from lobula.engine.network import Network
-from lobula.errors import ParameterError, ShapeError
+from lobula.model.network import TAPS
 
-from .engines import needs_core
+from .engines import assert_in_range
+from .films import NASTY, Film, drifting, filmed, growing, looming
 
-GREY = np.full((48, 64), 120, np.uint8)
-
-
-@pytest.fixture(params=[pytest.param("core", marks=needs_core), "reference"])
-def engine(request):
-    return request.param
+BOTH = pytest.mark.parametrize("preset", ["paper", "published"])
 
 
-@pytest.fixture
-def net(engine):
-    return Network(engine=engine)
+def run(net: Network, film: Film, **kwargs):
+    return net.run(film.images, film.times_s, turning=film.turning, **kwargs)
 
 
-class TestNetwork:
-    def test_engine_is_told(self, net, engine):
+class TestBehaviour:
+    def test_the_engine_is_told(self, net, engine):
         assert net.engine == engine
 
-    @pytest.mark.parametrize("preset", ["paper", "published"])
-    def test_looming_collides_before_contact(self, engine, preset):
+    @BOTH
+    def test_an_approach_is_a_collision_before_contact(self, net):
         movie = stimuli.looming(speed_cm_s=12.0)
-        trace = Network(lobula.preset(preset), engine=engine).run(movie.images, movie.times_s)
-        alarms = trace["time_s"][trace["collision"]]
+        alarms = movie.times_s[run(net, filmed(movie))["collision"]]
         assert 0.5 < alarms[0] < movie.contact_s
 
-    @pytest.mark.parametrize("make", [stimuli.receding, stimuli.translating])
-    def test_nothing_else_does(self, net, make):
-        movie = make(speed_cm_s=12.0)
-        assert not net.run(movie.images, movie.times_s)["collision"].any()
+    @pytest.mark.parametrize(
+        ("preset", "make"),
+        [("paper", stimuli.receding), ("published", stimuli.receding), ("paper", stimuli.translating)],
+    )
+    def test_nothing_else_is(self, net, make):
+        assert not run(net, filmed(make(speed_cm_s=12.0)))["collision"].any()
 
-    def test_direction(self, net):
-        for direction, sees, is_blind in (("right", "lptc_r", "lptc_l"), ("left", "lptc_l", "lptc_r")):
-            net.reset()
-            movie = stimuli.translating(speed_cm_s=12.0, direction=direction)
-            trace = net.run(movie.images, movie.times_s)
-            assert np.abs(trace[sees]).max() > 0.2
-            assert trace[f"spikes_{sees}"].sum() > 10 * trace[f"spikes_{is_blind}"].sum()
+    @BOTH
+    def test_the_lptcs_tell_right_from_left_and_the_mirror_swaps_them(self, net):
+        right = stimuli.translating(speed_cm_s=12.0, direction="right", lead_s=0.3, hold_s=0.1)
+        there = run(net, filmed(right))
+        assert there["lptc_r"].max() > 0.5
+        assert there["spikes_lptc_r"].sum() > 10 * there["spikes_lptc_l"].sum()
+        net.reset()
+        back = run(net, filmed(stimuli.mirrored(right)))
+        for name, twin, sign in (("lptc_r", "lptc_l", -1), ("lptc_l", "lptc_r", -1), ("lgmd1", "lgmd1", 1),
+                                 ("lgmd2", "lgmd2", 1)):  # fmt: skip
+            np.testing.assert_allclose(back[name], sign * there[twin], atol=1e-6)
+        assert back["spikes_lptc_l"].sum() > 10 * back["spikes_lptc_r"].sum()
+
+    @BOTH
+    @pytest.mark.parametrize("name", ["growing", "drifting", "lamps", "checks", "one-pixel", "extremes"])
+    def test_potentials_stay_in_their_ranges(self, net, name):
+        assert_in_range(run(net, NASTY[name]()))
+
+    def test_a_still_picture_is_silent(self, net):
+        trace = net.run(np.full((30, 36, 52), 77, np.uint8), np.arange(30) / 30)
+        assert (trace["lgmd1"] == 0.5).all()
+        assert (trace["lgmd2"] == 0.5).all()
+        assert not trace["lptc_r"].any()
+        assert not trace["lptc_l"].any()
+        assert not trace["collision"].any()
+        assert trace["state"].tolist() == ["warming_up"] * 6 + ["ok"] * 24
 
     def test_turning_is_a_state_and_no_collision(self, net):
-        movie = stimuli.looming(speed_cm_s=12.0)
-        trace = net.run(movie.images, movie.times_s, turning=np.ones(len(movie), np.bool_))
+        film = filmed(looming())
+        assert run(net, film)["collision"].any()
+        net.reset()
+        trace = run(net, film._replace(turning=np.ones(len(film.images), np.bool_)))
         assert not trace["collision"].any()
         assert set(trace["state"]) == {"warming_up", "turning"}
 
-    def test_another_size_is_refused_and_nothing_taken_in(self, net):
-        net.step(GREY, 0.0)
-        with pytest.raises(ShapeError, match=r"32 x 24 px after 64 x 48"):
-            net.step(np.zeros((24, 32), np.uint8), 0.1)
-        with pytest.raises(ShapeError, match=r"32 x 24 px after 64 x 48"):
-            net.run(np.zeros((2, 24, 32), np.uint8), [0.1, 0.2])
-        net.step(GREY, 0.1)
+    def test_a_yaw_rate_is_turning_where_it_is_fast(self, net):
+        images = growing(frames=12).images
+        yaw = [-90.0 if t == 8 else 3.0 for t in range(12)]
+        states = [net.step(image, t / 30, yaw_rate_deg_s=yaw[t]).state for t, image in enumerate(images)]
+        # 67 ms after the turn at frame 8: until frame 10
+        assert states == ["warming_up"] * 6 + ["ok", "ok", "turning", "turning", "turning", "ok"]
 
-    @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf, -0.5, 255.5])
-    @pytest.mark.parametrize("place", [(0, 0), (47, 63), (20, 33)])
-    def test_values_that_are_no_luminance(self, net, bad, place):
-        image = GREY.astype(np.float32)
-        net.step(image, 0.0)
-        image[place] = bad
-        for started in (net, Network(engine=net.engine)):
-            with pytest.raises(ShapeError, match=r"NaN or infinity|must lie in 0\.\.255"):
-                started.step(image, 0.1)
-            with pytest.raises(ShapeError, match=r"NaN or infinity|must lie in 0\.\.255"):
-                started.run(image[None], [0.1])
+    def test_kernels_grow_with_the_picture_where_that_is_asked_for(self, net, engine):
+        grown = Network(net.params, engine=engine, scale_kernels=True)
+        wide, narrow = drifting(48, 200, frames=8), drifting(36, 52, frames=8)
+        assert not np.allclose(run(net, wide)["lptc_l"], run(grown, wide)["lptc_l"])
+        net.reset()
+        grown.reset()
+        assert run(net, narrow).tolist() == run(grown, narrow).tolist()
 
-    def test_unit_range_is_refused(self, net):
-        image = np.linspace(0, 1, 64 * 48, dtype=np.float32).reshape(48, 64)
-        with pytest.raises(ShapeError, match=r"look like 0\.\.1: must be 0\.\.255"):
-            net.step(image, 0.0)
-        with pytest.raises(ShapeError, match=r"look like 0\.\.1: must be 0\.\.255"):
-            net.run(image[None], [0.0])
-        net.step(255 * image, 0.0)
-        net.step(image, 0.1)  # dark after daylight is dark
+    def test_asking_for_maps_changes_no_reading(self, net, engine):
+        film = growing()
+        tapped = Network(net.params, engine=engine)
+        for i, (image, time_s) in enumerate(zip(film.images, film.times_s, strict=True)):
+            a = net.step(image, time_s)
+            b = tapped.step(image, time_s, taps=[TAPS[i % len(TAPS)]])
+            assert a[:8] == b[:8]
+            assert a.taps == {}
+            assert b.taps[TAPS[i % len(TAPS)]].shape == (36, 52)
 
-    def test_taps_of_a_frame_that_does_not_advance_are_empty(self, net):
-        assert not net.step(GREY, 0.0, taps=["change"]).taps["change"].any()
-        assert net.step(GREY, 0.1).taps == {}
-
-    def test_streams_and_single_frames_do_not_mix(self, net):
-        net.run(np.zeros((2, 3, 24, 32), np.uint8), [0.0, 0.1, 0.2])
-        with pytest.raises(ParameterError, match="2 streams: must be one"):
-            net.step(np.zeros((24, 32), np.uint8), 1.0)
+    def test_maps_of_a_frame_that_does_not_move_it_on_are_empty(self, net):
+        image = growing(frames=1).images[0]
+        assert not net.step(image, 0.0, taps=["change"]).taps["change"].any()
+        net.step(image[::-1], 0.1)
+        assert not net.step(image, 0.1001, taps=["change"]).taps["change"].any()  # joins an unfinished tick

@@ -11,8 +11,8 @@ import lobula
 from lobula.engine.network import Network
 from lobula.model.network import TAPS
 
-from .engines import assert_alike, changed, needs_core, run
-from .films import NASTY, Film, at_hz, drifting, filmed, jittered, looming, noise
+from .engines import assert_alike, assert_in_range, changed, needs_core, run
+from .films import NASTY, drifting, filmed, jittered, looming, noise
 
 pytestmark = needs_core
 
@@ -21,8 +21,9 @@ PRESETS = ("paper", "published")
 
 def compare(params, film, **kwargs):
     core, reference = (run(engine, params, film, **kwargs) for engine in ("core", "reference"))
+    for trace in (core, reference):
+        assert_in_range(trace)
     assert_alike(core, reference, params)
-    return reference
 
 
 @pytest.mark.parametrize("preset", PRESETS)
@@ -83,7 +84,7 @@ VARIANTS = {
 @pytest.mark.parametrize("name", VARIANTS)
 def test_settings(name, preset):
     params = changed(lobula.preset(preset), **VARIANTS[name])
-    compare(params, filmed(looming(scene="arena")))
+    compare(params, filmed(looming(scene="arena", lead_s=0.1)))
     compare(params, drifting(33, 49, frames=8))
 
 
@@ -91,38 +92,6 @@ def test_settings(name, preset):
 def test_kernels_that_grow_with_the_picture(width):
     film = filmed(looming(scene="arena", width=width, height=100, start_cm=10.0, lead_s=0.2))
     compare(lobula.preset(), film, scale_kernels=True)
-
-
-@pytest.mark.parametrize("dtype", [np.uint8, np.float16, np.float32, np.float64])
-def test_types_of_pixels(dtype):
-    whole = noise(48, 64, seed=4)
-    compare(lobula.preset(), whole._replace(images=whole.images.astype(dtype)))
-
-
-def views():
-    wide = noise(60, 140, seed=5).images
-    reals = wide.astype(np.float32)
-    return {
-        "crop": wide[:, 5:53, 7:71], "every-second": wide[:, ::2, 1::3], "upside-down": wide[:, ::-1],
-        "mirrored": wide[:, :, ::-1], "transposed": wide.transpose(0, 2, 1), "fortran": np.asfortranarray(wide),
-        "real-crop": reals[:, 5:53, 7:71], "real-mirrored": reals[:, :, ::-1], "backwards": wide[::-1],
-        "the-same": np.broadcast_to(wide[0], wide.shape),
-    }  # fmt: skip
-
-
-@pytest.mark.parametrize("name", views())
-def test_pixels_that_do_not_lie_side_by_side(name):
-    images = views()[name]
-    film = Film(images, at_hz(30, len(images)))
-    params = lobula.preset()
-    trace = run("core", params, film)
-    tidy = run("core", params, film._replace(images=np.ascontiguousarray(images)))
-    assert trace.tolist() == tidy.tolist()
-    net = Network(params, engine="core")
-    steps = [net.step(image, t) for image, t in zip(images, film.times_s, strict=True)]
-    assert [r.lptc_r for r in steps] == trace["lptc_r"].tolist()
-    assert [r.lgmd1 for r in steps] == trace["lgmd1"].tolist()
-    assert_alike(trace, run("reference", params, film), params)
 
 
 @given(st.integers(0, 10**6), st.integers(24, 60), st.integers(32, 70), st.sampled_from(PRESETS), st.booleans())
@@ -148,12 +117,3 @@ def test_taps(name, preset):
             error = np.abs(a.taps[tap] - b.taps[tap]) / scale
             # A cell may fall on the other side of a threshold: of the dead zone, or of the grouping.
             assert (error > 1e-5).mean() < 2e-3, f"{tap} at {time_s} s: {error.max()}"
-
-
-def test_asking_for_taps_changes_no_reading():
-    film = filmed(looming(scene="arena"))
-    plain, tapped = (Network(engine="core") for _ in range(2))
-    for i, (image, time_s) in enumerate(zip(film.images, film.times_s, strict=True)):
-        a = plain.step(image, float(time_s))
-        b = tapped.step(image, float(time_s), taps=[TAPS[i % len(TAPS)]])
-        assert a[:8] == b[:8]

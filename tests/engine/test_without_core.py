@@ -1,4 +1,4 @@
-"""No compiler, no core: said once, and the reference runs."""
+"""Which engine runs: the core where it is; where it is not, that is said once, and the reference runs."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import pytest
 from lobula.engine import library
 from lobula.engine.network import Network
 from lobula.errors import ParameterError
+
+from .engines import needs_core
 
 GREY = np.full((24, 32), 120, np.float32)
 
@@ -23,6 +25,11 @@ def place(monkeypatch, tmp_path):
     library._load.cache_clear()
 
 
+@needs_core
+def test_auto_takes_the_core_where_it_is():
+    assert (Network().engine, library.why_not()) == ("core", "")
+
+
 def test_auto_warns_once_and_runs_the_reference(place):
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("default")
@@ -34,6 +41,7 @@ def test_auto_warns_once_and_runs_the_reference(place):
     assert {net.engine for net in nets} == {"reference"}
     assert nets[0].step(GREY, 0.0).lgmd1 == 0.5
     assert nets[0].step(GREY, 0.1).lgmd1 == 0.5
+    assert not library.available()
     assert library.isas() == ()
 
 
@@ -52,8 +60,13 @@ def test_a_file_that_is_no_library(place):
     place.write_text("not a library")
     with pytest.warns(RuntimeWarning, match=r"liblobula\.so cannot be loaded"):
         assert Network().engine == "reference"
+    assert not library.available()
+    assert "cannot be loaded" in library.why_not()
+    with pytest.raises(ParameterError, match="use engine='reference' or 'auto'"):
+        Network(engine="core")
 
 
-def test_unknown_engine():
-    with pytest.raises(ParameterError, match="engine 'steam': must be one of auto, core, reference"):
-        Network(engine="steam")
+@pytest.mark.parametrize("name", ["steam", ""])
+def test_unknown_engine(name):
+    with pytest.raises(ParameterError, match=f"engine '{name}': must be one of auto, core, reference"):
+        Network(engine=name)
