@@ -8,11 +8,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
+from collections.abc import Sequence
+from typing import NamedTuple
 
 from .world import World
 
@@ -51,61 +48,59 @@ class Touch(NamedTuple):
 class Surroundings:
     """Distances between bodies, and how far each robot gets in a tick.
 
-    Columns of a table of gaps: the robots, the obstacles, the wall.
+    What a robot can touch has a column: the robots, the obstacles, the wall. Places are complex numbers, x + iy, in cm.
     """
 
     def __init__(self, world: World, robots: int) -> None:
         radius = world.body.radius_cm
         width, depth = world.room.size_cm
-        self.robots, self.columns = robots, robots + len(world.obstacles) + 1
-        self.radius_cm = radius
+        self.robots, self.wall = robots, robots + len(world.obstacles)
         self._round = world.room.shape == "circle"
         self._middle = complex(width / 2, depth / 2)
-        self._half = np.array([width / 2 - radius, depth / 2 - radius])  # what a centre can reach, from the middle
-        fixed = [complex(o.x_cm, o.y_cm) for o in world.obstacles]
-        self._reach = np.array([2 * radius] * robots + [radius + o.radius_cm for o in world.obstacles])
-        self._own = np.where(np.eye(robots, self.columns - 1, dtype=np.bool_), np.inf, 0.0)  # no robot is near itself
-        self._own -= self._reach
-        self._bodies = np.array([0j] * robots + fixed)
-        self._gaps = np.empty((robots, self.columns))
+        self._half = width / 2 - radius, depth / 2 - radius  # what a robot's centre can reach, from the middle
+        self._fixed = [complex(o.x_cm, o.y_cm) for o in world.obstacles]
+        self._reach = [2 * radius] * robots + [radius + o.radius_cm for o in world.obstacles]
 
     def code(self, column: int) -> int:
         """Return how a contact names ``column``."""
-        if column == self.columns - 1:
+        if column == self.wall:
             return WALL
         return column if column < self.robots else obstacle_code(column - self.robots)
 
-    def gaps(self, places_cm: NDArray[np.complex128]) -> NDArray[np.float64]:
-        """Return the distances (R, columns) from edge to edge, cm, at ``places_cm`` (R,); good until the next call."""
-        self._bodies[: self.robots] = places_cm
-        np.abs(places_cm[:, None] - self._bodies, out=self._gaps[:, :-1])
-        self._gaps[:, :-1] += self._own
-        if self._round:
-            self._gaps[:, -1] = self._half[0] - np.abs(places_cm - self._middle)
-        else:
-            out = np.abs((places_cm - self._middle).view(np.float64)).reshape(-1, 2)
-            self._gaps[:, -1] = (self._half - out).min(axis=1)
-        return self._gaps
+    def gap_cm(self, places: Sequence[complex], robot: int, column: int) -> float:
+        """Return the distance from edge to edge between ``robot`` and ``column``."""
+        place = places[robot]
+        if column == self.wall:
+            return self._to_wall(place)
+        other = places[column] if column < self.robots else self._fixed[column - self.robots]
+        return abs(place - other) - self._reach[column]
+
+    def near(self, places: Sequence[complex], chords: Sequence[complex]) -> list[tuple[int, int]]:
+        """Return the pairs (robot, column) that could touch within the tick; the robot is one that drives."""
+        lengths = [abs(chord) for chord in chords]
+        pairs = []
+        for i, (place, length) in enumerate(zip(places, lengths, strict=True)):
+            for j in range(i):
+                both = length + lengths[j]
+                if both and abs(place - places[j]) - self._reach[j] < both:
+                    pairs.append((j, i) if lengths[j] else (i, j))
+            if length:
+                if self._to_wall(place) < length:
+                    pairs.append((i, self.wall))
+                for k, middle in enumerate(self._fixed, self.robots):
+                    if abs(place - middle) - self._reach[k] < length:
+                        pairs.append((i, k))
+        return pairs
 
     def hold_up(
-        self, gaps: NDArray[np.float64], places_cm: NDArray[np.complex128], chords: NDArray[np.complex128]
-    ) -> tuple[NDArray[np.float64], list[Touch]]:
-        """Return the share (R,) of its chord that each robot gets through, and the touches, earliest first.
+        self, pairs: list[tuple[int, int]], places: Sequence[complex], chords: Sequence[complex]
+    ) -> tuple[list[float], list[Touch]]:
+        """Return the share of its chord that each robot gets through, and the touches, earliest first.
 
-        ``gaps`` are those at ``places_cm``. Touches with nobody moving towards the other are none.
+        ``pairs`` are those that ``near`` found. A touch needs at least one that moves towards the other.
         """
-        robots = self.robots
-        ways = np.abs(chords)
-        reach = np.zeros(self.columns)
-        reach[:robots] = ways
-        near = gaps < ways[:, None] + reach
-        near &= ways[:, None] > 0
-        both = near[:, :robots]
-        both &= ~(both.T & np.tri(robots, dtype=np.bool_))  # a pair that drives, once
-        pairs: list[list[int]] = np.argwhere(near).tolist()
-        shares, touches = [1.0] * robots, []
-        at, way = [*places_cm.tolist(), *self._bodies[robots:].tolist()], [*chords.tolist()]
-        way += [0j] * (self.columns - robots)
+        at, way, shares = [*places, *self._fixed], [*chords, *[0j] * len(self._fixed)], [1.0] * self.robots
+        touches: list[Touch] = []
         now = 0.0
         while pairs:
             first, robot, column = min((self._until(at, way, now, i, j), i, j) for i, j in pairs)
@@ -114,28 +109,34 @@ class Surroundings:
             now = first
             touches.append(Touch(robot, column, now, self._direction(at, way, now, robot, column)))
             for who in (robot, column):
-                if who < robots and way[who]:
+                if who < self.robots and way[who]:
                     at[who] += now * way[who]
                     way[who] = 0j
                     shares[who] = now
-            pairs = [[i, j] for i, j in pairs if way[i] or (j < robots and way[j])]
-        return np.array(shares), touches
+            pairs = [(i, j) for i, j in pairs if way[i] or (j < self.robots and way[j])]
+        return shares, touches
+
+    def _to_wall(self, place: complex) -> float:
+        place -= self._middle
+        if self._round:
+            return self._half[0] - abs(place)
+        return min(self._half[0] - abs(place.real), self._half[1] - abs(place.imag))
 
     def _until(self, at: Sequence[complex], way: Sequence[complex], now: float, i: int, j: int) -> float:
         """Return the share of the tick, ``now`` or later, at which robot ``i`` touches ``j``; infinite if never."""
         place = at[i] + now * way[i]
-        if j < self.columns - 1:
-            return now + until_apart(place - at[j] - now * way[j], way[i] - way[j], float(self._reach[j]))
+        if j != self.wall:
+            return now + until_apart(place - at[j] - now * way[j], way[i] - way[j], self._reach[j])
         place -= self._middle
         if self._round:
-            return now + until_out(place, way[i], float(self._half[0]))
-        across = until_beyond(place.real, way[i].real, float(self._half[0]))
-        return now + min(across, until_beyond(place.imag, way[i].imag, float(self._half[1])))
+            return now + until_out(place, way[i], self._half[0])
+        across = until_beyond(place.real, way[i].real, self._half[0])
+        return now + min(across, until_beyond(place.imag, way[i].imag, self._half[1]))
 
     def _direction(self, at: Sequence[complex], way: Sequence[complex], now: float, i: int, j: int) -> float:
         """Return where the touched thing lies as seen from robot ``i``, rad."""
         place = at[i] + now * way[i]
-        if j < self.columns - 1:
+        if j != self.wall:
             return cmath.phase(at[j] + now * way[j] - place)
         place -= self._middle
         if self._round:
@@ -176,32 +177,32 @@ class Episodes:
     An episode ends when the two have been farther apart than ``separation_cm`` for ``separation_s``.
     """
 
-    def __init__(self, world: World, robots: int, columns: int) -> None:
+    def __init__(self, world: World, around: Surroundings) -> None:
+        self._around = around
         self._apart_cm = world.scoring.separation_cm
         self._needed = max(1, round(world.scoring.separation_s / world.tick_s))
-        self._robots = robots
-        self._open = np.zeros((robots, columns), np.bool_)
-        self._apart = np.zeros((robots, columns), np.int64)  # ticks apart so far
+        self._open: dict[tuple[int, int], int] = {}  # robot and column: ticks apart so far
 
     def begin(self, robot: int, column: int) -> bool:
         """Note a touch and return whether it is the first of its episode."""
-        if column < self._robots:
-            robot, column = min(robot, column), max(robot, column)
-        new = not self._open[robot, column]
-        self._open[robot, column] = True
-        self._apart[robot, column] = 0
-        return bool(new)
+        pair = (min(robot, column), max(robot, column))
+        new = pair not in self._open
+        self._open[pair] = 0
+        return new
 
-    def step(self, gaps: NDArray[np.float64]) -> None:
-        """End what has been apart for long enough; ``gaps`` (R, columns) at the end of the tick."""
-        if self._open.any():
-            self._apart = np.where(self._open & (gaps > self._apart_cm), self._apart + 1, 0)
-            self._open &= self._apart < self._needed
+    def step(self, places: Sequence[complex]) -> None:
+        """End what has been apart for long enough; ``places`` at the end of the tick."""
+        for (robot, column), ticks in list(self._open.items()):
+            apart = self._around.gap_cm(places, robot, column) > self._apart_cm
+            if apart and ticks + 1 >= self._needed:
+                del self._open[robot, column]
+            else:
+                self._open[robot, column] = ticks + 1 if apart else 0
 
-    def state(self) -> dict[str, Any]:
+    def state(self) -> list[list[int]]:
         """Return a copy of what is open."""
-        return {"open": self._open.copy(), "apart": self._apart.copy()}
+        return [[robot, column, ticks] for (robot, column), ticks in self._open.items()]
 
-    def set_state(self, state: Mapping[str, Any]) -> None:
+    def set_state(self, state: list[list[int]]) -> None:
         """Continue from ``state``, which ``state()`` gave."""
-        self._open, self._apart = np.array(state["open"]), np.array(state["apart"])
+        self._open = {(robot, column): ticks for robot, column, ticks in state}

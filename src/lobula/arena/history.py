@@ -29,8 +29,17 @@ class Past(NamedTuple):
     first_tick: int
 
 
+class Rows(NamedTuple):
+    """Consecutive frames of all robots, oldest first."""
+
+    poses: NDArray[np.float64]  # (T, R, 3)
+    turning: NDArray[np.bool_]  # (T, R)
+    light: NDArray[np.float64]  # (T, R)
+    potentials: NDArray[np.float64]  # (T, R, 4), NaN where the controller has none
+
+
 class History:
-    """Poses, queues and potentials of the last ``length`` ticks, side by side in memory, and saved controller states.
+    """Poses, queues, light and potentials of the last ``length`` ticks, side by side, and saved controller states.
 
     Each row is written to an array of twice the length; where its end is reached, the newest rows move to the front.
     """
@@ -39,6 +48,7 @@ class History:
         self.length = length
         self._poses = np.zeros((2 * length, robots, 3))
         self._turning = np.zeros((2 * length, robots), np.bool_)
+        self._light = np.ones((2 * length, robots))
         self._potentials = np.full((2 * length, robots, 4), np.nan)
         self._rows = 0
         self.last_tick = -1
@@ -46,19 +56,25 @@ class History:
         """(tick, the state of each robot before the frame of that tick), oldest first."""
 
     def add(
-        self, tick: int, poses: NDArray[np.float64], turning: NDArray[np.bool_], potentials: NDArray[np.float64] | None
-    ) -> None:
+        self, tick: int, poses: NDArray[np.float64], turning: NDArray[np.bool_], light: NDArray[np.float64],
+        potentials: NDArray[np.float64] | None,
+    ) -> None:  # fmt: skip
         """Note the frame of ``tick``, the next one after the last."""
         row = self._rows
         if row == 2 * self.length:
-            for kept in (self._poses, self._turning, self._potentials):
+            for kept in (self._poses, self._turning, self._light, self._potentials):
                 kept[: self.length] = kept[self.length :]
             row = self.length
         self._poses[row] = poses
         self._turning[row] = turning
+        self._light[row] = light
         if potentials is not None:
             self._potentials[row] = potentials
         self._rows, self.last_tick = row + 1, tick
+
+    def has_saved(self, tick: int) -> bool:
+        """Whether the states of ``tick`` are there."""
+        return bool(self.states) and self.states[-1][0] == tick
 
     def save(self, tick: int, states: list[Any]) -> None:
         """Keep the controllers' ``states`` from before the frame of ``tick``; drop those the rows do not reach."""
@@ -66,26 +82,36 @@ class History:
         self.states.append((tick, states))
 
     def start_of(self, tick: int) -> tuple[int, list[Any] | None]:
-        """Return the newest saved moment at or before ``tick`` and its states, or the oldest there is."""
-        if not self.states:
-            return max(tick, self.last_tick - min(self._rows, self.length) + 1), None
-        return next((kept for kept in reversed(self.states) if kept[0] <= tick), self.states[0])
+        """Return the newest saved moment at or before ``tick`` and its states, or the oldest there is.
 
-    def since(self, tick: int) -> tuple[NDArray[np.float64], NDArray[np.bool_], NDArray[np.float64]]:
-        """Return poses, queues and potentials of the frames from ``tick`` to the last."""
+        Without saved states it is ``tick`` itself, or the oldest row.
+        """
+        oldest = self.last_tick - min(self._rows, self.length) + 1
+        kept = [(at, states) for at, states in self.states if at >= oldest]
+        if not kept:
+            return max(tick, oldest), None
+        return next((moment for moment in reversed(kept) if moment[0] <= tick), kept[0])
+
+    def since(self, tick: int) -> Rows:
+        """Return a copy of the frames from ``tick`` to the last."""
         rows = slice(self._rows - (self.last_tick - tick + 1), self._rows)
-        return self._poses[rows].copy(), self._turning[rows].copy(), self._potentials[rows].copy()
+        return Rows(
+            self._poses[rows].copy(),
+            self._turning[rows].copy(),
+            self._light[rows].copy(),
+            self._potentials[rows].copy(),
+        )
 
     def state(self) -> dict[str, Any]:
         """Return a copy of everything kept; the controllers' states are shared, they never change."""
-        poses, turning, potentials = self.since(self.last_tick - min(self._rows, self.length) + 1)
-        rows = {"poses": poses, "turning": turning, "potentials": potentials}
-        return {**rows, "last_tick": self.last_tick, "states": [[tick, list(kept)] for tick, kept in self.states]}
+        rows = self.since(self.last_tick - min(self._rows, self.length) + 1)
+        states = [[tick, list(kept)] for tick, kept in self.states]
+        return {**rows._asdict(), "last_tick": self.last_tick, "states": states}
 
     def set_state(self, state: Mapping[str, Any]) -> None:
         """Continue from ``state``, which ``state()`` gave."""
         rows = self._rows = len(state["poses"])
         self._poses[:rows], self._turning[:rows] = state["poses"], state["turning"]
-        self._potentials[:rows] = state["potentials"]
+        self._light[:rows], self._potentials[:rows] = state["light"], state["potentials"]
         self.last_tick = int(state["last_tick"])
         self.states = [(int(tick), list(kept)) for tick, kept in state["states"]]

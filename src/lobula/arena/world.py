@@ -171,8 +171,9 @@ class CameraParams(Params):
                            source="paper Sec. III-A")  # fmt: skip
     noise_grey: float = param(1.5, "grey", "sensor noise, standard deviation", low=0, high=100, source="chosen")
     blur_px: float = param(0.0, "px", "blur of the optics, standard deviation", low=0, high=10, source="chosen")
-    auto_gain: bool = param(False, "", "scale each picture to the mean auto_gain_grey", source="chosen")
-    auto_gain_grey: float = param(128.0, "grey", "mean of a picture under auto_gain", low=1, high=255, source="chosen")
+    auto_gain: bool = param(False, "", "let a gain follow the light, towards pictures of one mean", source="chosen")
+    auto_gain_grey: float = param(128.0, "grey", "that mean", low=1, high=255, source="chosen")
+    auto_gain_ms: float = param(200.0, "ms", "time constant of the gain", low=0, high=60000, source="chosen")
 
 
 @dataclass(frozen=True, kw_only=True)
