@@ -17,7 +17,6 @@ from lobula.arena.geometry import (
     normal_ahead,
     points_in_view,
     pupils,
-    surface_cm,
     touched_wall_normal,
     wall_ahead_cm,
     wrap_rad,
@@ -208,8 +207,3 @@ def test_views_of_several_moments_stand_apart():
 
 def test_no_discs_no_view():
     assert discs() == []
-
-
-def test_distance_to_a_surface():
-    assert surface_cm((0, 0), (6, 8), 2.0) == pytest.approx(8.0)
-    assert surface_cm((0, 0), (1, 0), 2.0) == 0.0

@@ -59,11 +59,16 @@ lgmd1, lgmd2, lptc_r, lptc_l : the robot's strongest potentials of the last 0.2 
 """
 
 
+def obstacle_number(other: int) -> int:
+    """Return which obstacle of the world a code below WALL means."""
+    return obstacle_code(0) - other
+
+
 def name_of(other: int) -> str:
     """Return a code of the column ``other`` in words."""
     if other >= 0:
         return f"robot {other}"
-    return {NOTHING: "nothing", WALL: "wall"}.get(other, f"obstacle {obstacle_code(0) - other}")
+    return {NOTHING: "nothing", WALL: "wall"}.get(other, f"obstacle {obstacle_number(other)}")
 
 
 def event_table(rows: list[dict[str, Any]] | None = None) -> NDArray[Any]:

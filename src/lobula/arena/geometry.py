@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -137,8 +136,3 @@ def discs_in_view(
     top = (heights - camera.above_floor_cm)[:, None] / depth
     hidden = (depth[:, None] < depth[:, :, None]) & (top[:, None] >= top[:, :, None])  # (T, hidden, hider, W)
     return np.asarray((met & ~hidden.any(axis=2)).any(axis=2))
-
-
-def surface_cm(pupil: Sequence[float], centre: Any, radius_cm: float) -> float:
-    """Return the distance from a pupil to the surface of a disc, never below 0."""
-    return max(math.hypot(centre[0] - pupil[0], centre[1] - pupil[1]) - radius_cm, 0.0)
