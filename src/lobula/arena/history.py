@@ -33,13 +33,13 @@ class Rows(NamedTuple):
     """Consecutive frames of all robots, oldest first."""
 
     poses: NDArray[np.float64]  # (T, R, 3)
-    turning: NDArray[np.bool_]  # (T, R)
+    phases: NDArray[np.int8]  # (T, R)
     light: NDArray[np.float64]  # (T, R)
     potentials: NDArray[np.float64]  # (T, R, 4), NaN where the controller has none
 
 
 class History:
-    """Poses, queues, light and potentials of the last ``length`` ticks, side by side, and saved controller states.
+    """Poses, phases, light and potentials of the last ``length`` ticks, side by side, and saved controller states.
 
     Each row is written to an array of twice the length; where its end is reached, the newest rows move to the front.
     """
@@ -47,7 +47,7 @@ class History:
     def __init__(self, length: int, robots: int) -> None:
         self.length = length
         self._poses = np.zeros((2 * length, robots, 3))
-        self._turning = np.zeros((2 * length, robots), np.bool_)
+        self._phases = np.zeros((2 * length, robots), np.int8)
         self._light = np.ones((2 * length, robots))
         self._potentials = np.full((2 * length, robots, 4), np.nan)
         self._rows = 0
@@ -56,17 +56,17 @@ class History:
         """(tick, the state of each robot before the frame of that tick), oldest first."""
 
     def add(
-        self, tick: int, poses: NDArray[np.float64], turning: NDArray[np.bool_], light: NDArray[np.float64],
+        self, tick: int, poses: NDArray[np.float64], phases: NDArray[np.int8], light: NDArray[np.float64],
         potentials: NDArray[np.float64] | None,
     ) -> None:  # fmt: skip
         """Note the frame of ``tick``, the next one after the last."""
         row = self._rows
         if row == 2 * self.length:
-            for kept in (self._poses, self._turning, self._light, self._potentials):
+            for kept in (self._poses, self._phases, self._light, self._potentials):
                 kept[: self.length] = kept[self.length :]
             row = self.length
         self._poses[row] = poses
-        self._turning[row] = turning
+        self._phases[row] = phases
         self._light[row] = light
         if potentials is not None:
             self._potentials[row] = potentials
@@ -97,7 +97,7 @@ class History:
         rows = slice(self._rows - (self.last_tick - tick + 1), self._rows)
         return Rows(
             self._poses[rows].copy(),
-            self._turning[rows].copy(),
+            self._phases[rows].copy(),
             self._light[rows].copy(),
             self._potentials[rows].copy(),
         )
@@ -111,7 +111,7 @@ class History:
     def set_state(self, state: Mapping[str, Any]) -> None:
         """Continue from ``state``, which ``state()`` gave."""
         rows = self._rows = len(state["poses"])
-        self._poses[:rows], self._turning[:rows] = state["poses"], state["turning"]
+        self._poses[:rows], self._phases[:rows] = state["poses"], state["phases"]
         self._light[:rows], self._potentials[:rows] = state["light"], state["potentials"]
         self.last_tick = int(state["last_tick"])
         self.states = [(int(tick), list(kept)) for tick, kept in state["states"]]

@@ -35,7 +35,7 @@ class Motion:
     ----------
     places_cm, headings_rad, speeds_cm_s, phases : one of each for every robot
     distances_cm : the way each has driven so far
-    turning : (R,) bool, whether the motor queue holds something; a new array whenever it changes
+    codes, turning : (R,) int8, the phases; (R,) bool, whether the motor queue holds something; new whenever it changes
     """
 
     def __init__(
@@ -118,7 +118,8 @@ class Motion:
     def _changed(self) -> None:
         """Note that a phase has changed: what was planned for a tick no longer holds."""
         self._stale = True
-        self.turning: NDArray[np.bool_] = np.array(self.phases) != FORWARD
+        self.codes = np.array(self.phases, np.int8)
+        self.turning: NDArray[np.bool_] = self.codes != FORWARD
 
     def _plan(self) -> None:
         robots, half_cm = len(self.phases), self._wheels.track_cm / 2

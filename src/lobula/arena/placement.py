@@ -13,10 +13,8 @@ from .world import World
 CLEARANCES_CM = (5.0, 2.0, 0.5)
 """Room around each robot at the start: the first of these with which all find a place."""
 
-TRIES = 500
-"""Random places looked at for each robot, and random layouts begun for each clearance ..."""
-
-LAYOUTS = 20
+TRIES, LAYOUTS = 500, 5
+"""Random places looked at for each robot, and layouts begun anew for each clearance."""
 
 
 def random_poses(world: World, rng: np.random.Generator) -> NDArray[np.float64]:
@@ -47,18 +45,15 @@ def _layout(world: World, clearance_cm: float, rng: np.random.Generator) -> NDAr
     edge = radius + clearance_cm
     if (size <= 2 * edge).any():
         return np.empty((0, 2))
-    taken = [(o.x_cm, o.y_cm, o.radius_cm + edge) for o in world.obstacles]
+    taken = np.array([(o.x_cm, o.y_cm, o.radius_cm + edge) for o in world.obstacles]).reshape(-1, 3)
     fixed = len(taken)
     for _ in range(world.robots.count):
         tries = rng.uniform(edge, size - edge, (TRIES, 2))
-        free = np.ones(TRIES, np.bool_)
+        x, y, apart = taken.T
+        free = (np.hypot(tries[:, :1] - x, tries[:, 1:] - y) >= apart).all(axis=1)
         if world.room.shape == "circle":
-            free = np.hypot(*(tries - size / 2).T) <= size[0] / 2 - edge
-        if taken:
-            x, y, apart = np.array(taken).T
-            free &= (np.hypot(tries[:, :1] - x, tries[:, 1:] - y) >= apart).all(axis=1)
+            free &= np.hypot(*(tries - size / 2).T) <= size[0] / 2 - edge
         if not free.any():
             break
-        place = tries[free.argmax()]
-        taken.append((float(place[0]), float(place[1]), 2 * radius + clearance_cm))
-    return np.array([(x, y) for x, y, _ in taken[fixed:]]).reshape(-1, 2)
+        taken = np.vstack([taken, (*tries[free.argmax()], 2 * radius + clearance_cm)])
+    return taken[fixed:, :2]

@@ -22,7 +22,7 @@ from .contact import Contact, Episodes, Surroundings
 from .controller import Bools, Controller, ControllerError, KeepsState, decide, keeps_state
 from .eye import Eye
 from .history import History, Past
-from .motion import Motion
+from .motion import FORWARD, Motion
 from .placement import random_poses
 from .scene import build_scene
 from .world import World, world_hash
@@ -169,7 +169,7 @@ class Simulation:
         """Go through one tick in which the robots ``avoiding`` (R,) begin to stop and turn; return the new contacts."""
         motion, around = self.motion, self._around
         potentials = getattr(self.controller, "potentials", None)
-        self.history.add(self.tick_count, self.pose, motion.turning, self._light, potentials)
+        self.history.add(self.tick_count, self.pose, motion.codes, self._light, potentials)
         if self.world.camera.auto_gain and self.images is not None:
             self._follow_light(self.images)
         if avoiding.any():
@@ -201,7 +201,8 @@ class Simulation:
         back_s = self.world.scoring.back_s if since_s is None else since_s
         last = self.history.last_tick
         first, states = self.history.start_of(last - math.ceil(back_s * rate - 1e-6))
-        poses, turning, light, potentials = self.history.since(first)
+        poses, phases, light, potentials = self.history.since(first)
+        turning = phases != FORWARD
         ticks = np.arange(first, last + 1)
         times_s = ticks / rate
         speeds, headings = np.where(turning[-1], 0.0, self.motion.speeds_cm_s), poses[-1, :, 2]
