@@ -39,11 +39,18 @@ static char *take(char *base, size_t *used, size_t bytes) {
     return at;
 }
 
+static size_t edges_of(const lobula_eye_scene *scene, int64_t bodies) {
+    size_t edges = EYE_ROOM_EDGES + (size_t)bodies * (size_t)(scene->body.bands + EYE_EDGES);
+    for (int32_t i = 0; i < scene->posts; i++) edges += (size_t)(scene->post[i].bands + EYE_EDGES);
+    return edges;
+}
+
 static eye_memory memory_at(void *base, const lobula_eye_scene *scene, const lobula_eye_camera *c, int64_t bodies) {
     eye_memory m = {.size = 0};
     size_t pixels = (size_t)c->width * (size_t)c->height, cylinders = (size_t)bodies + (size_t)scene->posts;
     m.scratch.cylinders = (void *)take(base, &m.size, cylinders * sizeof(eye_cylinder));
     m.scratch.cuts = (void *)take(base, &m.size, (cylinders * EYE_CUTS + EYE_ROOM_CUTS) * sizeof(double));
+    m.scratch.edges = (void *)take(base, &m.size, edges_of(scene, bodies) * sizeof(eye_edge));
     m.scratch.column = (void *)take(base, &m.size, (size_t)c->height * sizeof(float));
     m.columns = (void *)take(base, &m.size, pixels * sizeof(float));
     m.spare = (void *)take(base, &m.size, c->blur_px > 0 ? pixels * sizeof(float) : 0);

@@ -24,13 +24,16 @@ typedef struct {
     double forward, right, power, zero_rad, samples_per_rad;
 } eye_surface;
 
-/* Where a ray meets a surface: `place` is in samples of its strip, `pace` goes as its change with s. */
+/* Where a ray meets a surface: `place` is in samples of its strip, `sum` that of the strip up to there, `pace` goes as
+ * the change of place with s. On a plain surface only the nearness counts. */
 typedef struct {
-    double nearness, place, pace;
+    double nearness, place, sum, pace;
 } eye_hit;
 
-eye_surface eye_plane_wall(const lobula_eye_scene *scene, const eye_pupil *pupil, int side);
-eye_surface eye_round_wall(const lobula_eye_scene *scene, const eye_pupil *pupil);
+/* `strip` is the wall's, or NULL where its pattern is not wanted. */
+eye_surface eye_plane_wall(const lobula_eye_scene *scene, const lobula_eye_strip *strip, const eye_pupil *pupil,
+                           int side);
+eye_surface eye_round_wall(const lobula_eye_scene *scene, const lobula_eye_strip *strip, const eye_pupil *pupil);
 /* A cylinder at `pose` (x, y, heading). */
 eye_surface eye_outside(const lobula_eye_cylinder *cylinder, const double *pose, const eye_pupil *pupil);
 

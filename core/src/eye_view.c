@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "eye_paint.h"
-
 /* Near its silhouette a cylinder's edges bend like a root; they are cut where the root is 1/4, 1/2 and 3/4, unless
  * they fall by less than this many rows over the first pixel. */
 #define BENT_ROWS 0.05
@@ -16,8 +14,13 @@ typedef struct {
     float light;
     eye_pupil pupil;
     eye_surface wall[4];
-    int walls, patterned, cylinders, cuts;
-    float wall_grey;
+    const lobula_eye_strip *strip; /* of the wall; NULL: plain */
+    double wall_grey;
+    int walls, cylinders, cuts;
+    /* where the ray at `met_s` met the wall `met`: a piece begins where the one before it ended */
+    const eye_surface *met;
+    double met_s;
+    eye_hit met_hit;
 } eye_state;
 
 static double ray_at(const eye_state *e, double u) { return (u - e->middle_x) / e->camera->focal_px; }
@@ -66,7 +69,7 @@ static void set_walls(eye_state *e, double *cuts) {
     const lobula_eye_scene *scene = e->scene;
     if (scene->shape == LOBULA_EYE_CIRCLE) {
         e->walls = 1;
-        e->wall[0] = eye_round_wall(scene, &e->pupil);
+        e->wall[0] = eye_round_wall(scene, e->strip, &e->pupil);
         return;
     }
     e->walls = 4;
@@ -74,7 +77,7 @@ static void set_walls(eye_state *e, double *cuts) {
         double dx = (i & 1 ? scene->width_cm : 0) - e->pupil.x, dy = (i & 2 ? scene->depth_cm : 0) - e->pupil.y;
         double forward = dx * e->pupil.forward_x + dy * e->pupil.forward_y;
         double right = dx * e->pupil.right_x + dy * e->pupil.right_y;
-        e->wall[i] = eye_plane_wall(scene, &e->pupil, i);
+        e->wall[i] = eye_plane_wall(scene, e->strip, &e->pupil, i);
         if (forward > 0) add_cut(e, cuts, column_of(e, right / forward));
     }
 }
@@ -120,21 +123,22 @@ static const eye_surface *wall_at(const eye_state *e, double s) {
     return &e->wall[nearest];
 }
 
-static eye_edge edge_of(const eye_state *e, double height_cm, double nearness0, double nearness1) {
-    return eye_edge_between(row_of(e, height_cm, nearness0), row_of(e, height_cm, nearness1));
+static eye_edge edge_of(const eye_state *e, double height_cm, double nearness0, double nearness1, double grey) {
+    return eye_edge_between(row_of(e, height_cm, nearness0), row_of(e, height_cm, nearness1), lit(e, grey));
 }
 
-static void paint_room(const eye_state *e, double s0, double s1, float *column) {
+static void start_with_room(eye_state *e, double s0, double s1, eye_stack *stack) {
     const lobula_eye_scene *scene = e->scene;
     const eye_surface *wall = wall_at(e, 0.5 * (s0 + s1));
-    eye_hit h0 = eye_meet(wall, s0), h1 = eye_meet(wall, s1);
-    float above = lit(e, scene->above_grey);
-    float grey = e->patterned ? lit(e, eye_strip_mean(wall, s0, s1, h0, h1)) : e->wall_grey;
-    const eye_edge edges[2] = {edge_of(e, scene->wall_cm, h0.nearness, h1.nearness),
-                               edge_of(e, 0, h0.nearness, h1.nearness)};
-    const float greys[2] = {grey, lit(e, scene->floor_grey)};
-    for (int y = 0; y < e->camera->height; y++) column[y] = above;
-    eye_paint_ground(column, e->camera->height, edges, greys, 2);
+    eye_hit h0 = e->met == wall && e->met_s == s0 ? e->met_hit : eye_meet(wall, s0), h1 = eye_meet(wall, s1);
+    double grey = e->strip ? eye_strip_mean(wall, s0, s1, h0, h1) : e->wall_grey;
+    stack->above = lit(e, scene->above_grey);
+    stack->edges[0] = edge_of(e, scene->wall_cm, h0.nearness, h1.nearness, grey);
+    stack->edges[1] = edge_of(e, 0, h0.nearness, h1.nearness, scene->floor_grey);
+    stack->count = EYE_ROOM_EDGES;
+    e->met = wall;
+    e->met_s = s1;
+    e->met_hit = h1;
 }
 
 static double mean_of_bands(const lobula_eye_cylinder *look) {
@@ -143,37 +147,35 @@ static double mean_of_bands(const lobula_eye_cylinder *look) {
     return sum / look->bands;
 }
 
-static void paint_cylinder(const eye_state *e, const eye_cylinder *c, double s0, double s1, float *column) {
+static void cover_with_cylinder(const eye_state *e, const eye_cylinder *c, double s0, double s1, eye_stack *stack) {
     const lobula_eye_cylinder *look = c->look;
     eye_edge edges[LOBULA_EYE_MAX_BANDS + 2];
-    float greys[LOBULA_EYE_MAX_BANDS + 1];
     eye_hit h0 = eye_meet(&c->surface, s0), h1 = eye_meet(&c->surface, s1);
     double around = c->surface.strip ? eye_strip_mean(&c->surface, s0, s1, h0, h1) : 0;
     int count = 0;
-    if (look->height_cm < e->camera->above_floor_cm) { /* its top is seen from above */
-        edges[0] = edge_of(e, look->height_cm, eye_far_side(&c->surface, s0), eye_far_side(&c->surface, s1));
-        greys[0] = lit(e, mean_of_bands(look) + eye_strip_grey(&look->around));
-        count = 1;
-    }
-    for (int k = look->bands; k > 0; k--, count++) {
-        edges[count] = edge_of(e, look->height_cm * k / look->bands, h0.nearness, h1.nearness);
-        greys[count] = lit(e, look->bands_grey[k - 1] + around);
-    }
-    edges[count] = edge_of(e, 0, h0.nearness, h1.nearness);
-    eye_paint_body(column, e->camera->height, edges, greys, count + 1);
+    if (look->height_cm < e->camera->above_floor_cm) /* its top is seen from above */
+        edges[count++] = edge_of(e, look->height_cm, eye_far_side(&c->surface, s0), eye_far_side(&c->surface, s1),
+                                 mean_of_bands(look) + eye_strip_grey(&look->around));
+    for (int k = look->bands; k > 0; k--)
+        edges[count++] = edge_of(e, look->height_cm * k / look->bands, h0.nearness, h1.nearness,
+                                 look->bands_grey[k - 1] + around);
+    edges[count++] = edge_of(e, 0, h0.nearness, h1.nearness, 0);
+    eye_stack_cover(stack, edges, count);
 }
 
-/* What lies between two rays, between which no surface begins or ends. */
-static void paint_piece(const eye_state *e, const eye_scratch *k, double u0, double u1, float *column) {
+/* What lies between two columns, between which no surface begins or ends. */
+static void paint_piece(eye_state *e, const eye_scratch *k, double u0, double u1, float *column) {
     double s0 = ray_at(e, u0), s1 = ray_at(e, u1), middle = 0.5 * (s0 + s1);
-    paint_room(e, s0, s1, column);
+    eye_stack stack = {.edges = k->edges};
+    start_with_room(e, s0, s1, &stack);
     for (int i = 0; i < e->cylinders; i++) {
         const eye_cylinder *c = &k->cylinders[i];
-        if (c->left < middle && middle < c->right) paint_cylinder(e, c, s0, s1, column);
+        if (c->left < middle && middle < c->right) cover_with_cylinder(e, c, s0, s1, &stack);
     }
+    eye_paint(&stack, column, e->camera->height);
 }
 
-static void paint_column(const eye_state *e, const eye_scratch *k, int x, int *cut, float *column) {
+static void paint_column(eye_state *e, const eye_scratch *k, int x, int *cut, float *column) {
     int height = e->camera->height;
     if (*cut == e->cuts || k->cuts[*cut] >= x + 1) {
         paint_piece(e, k, x, x + 1, column);
@@ -196,8 +198,8 @@ void eye_view(const lobula_eye_scene *scene, const lobula_eye_camera *camera, co
     eye_state e = {.scene = scene, .camera = camera, .light = (float)moment->light,
                    .middle_x = 0.5 * camera->width, .middle_y = 0.5 * camera->height,
                    .pupil = pupil_at(scene, moment->camera, camera->ahead_cm)};
-    e.patterned = moment->wall_pattern && scene->wall.samples > 0;
-    e.wall_grey = lit(&e, eye_strip_grey(&scene->wall));
+    e.strip = moment->wall_pattern && scene->wall.samples > 0 ? &scene->wall : NULL;
+    e.wall_grey = eye_strip_grey(&scene->wall);
     set_walls(&e, scratch->cuts);
     for (int32_t i = 0; i < scene->posts; i++) add_cylinder(&e, &scene->post[i], scene->post_poses + 3 * i, scratch);
     for (int64_t i = 0; i < moment->bodies; i++)

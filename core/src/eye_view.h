@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "eye_paint.h"
 #include "eye_surface.h"
 
 /* A cylinder in view: the columns that it covers, and its greys under this light. */
@@ -13,15 +14,19 @@ typedef struct {
     double left, right;
 } eye_cylinder;
 
-/* Memory that a view needs: `cylinders` and `cuts` for every body and post, one spare `column`. */
+/* Memory that a view needs. */
 typedef struct {
-    eye_cylinder *cylinders;
-    double *cuts; /* where in the picture something begins or ends */
+    eye_cylinder *cylinders; /* every body and post */
+    double *cuts;            /* where in the picture something begins or ends */
+    eye_edge *edges;         /* of a column: the wall's, and those of all cylinders */
     float *column;
 } eye_scratch;
 
 /* Cuts of one cylinder: both silhouettes, and a few inside each; and of the room. */
 enum { EYE_CUTS = 8, EYE_ROOM_CUTS = 4 };
+
+/* Edges of a column: of the room, and of a cylinder besides its bands. */
+enum { EYE_ROOM_EDGES = 2, EYE_EDGES = 2 };
 
 /* What differs from view to view. */
 typedef struct {
