@@ -207,3 +207,35 @@ def test_views_of_several_moments_stand_apart():
 
 def test_no_discs_no_view():
     assert discs() == []
+
+
+def seen_column_by_column(pupil, heading, centres, radii, heights):
+    """The definition, one ray at a time: the nearest disc shows, and behind it what stands higher in the picture."""
+    seen = [False] * len(centres)
+    for column in range(99):
+        ray = heading - math.atan((column + 0.5 - 49.5) / 49.5 * math.tan(HALF))
+        met = []
+        for j, (centre, radius) in enumerate(zip(centres, radii, strict=True)):
+            x, y = centre[0] - pupil[0], centre[1] - pupil[1]
+            along, beside = x * math.cos(ray) + y * math.sin(ray), y * math.cos(ray) - x * math.sin(ray)
+            if abs(beside) <= radius and along > 0:
+                met.append((along - math.sqrt(radius**2 - beside**2), j))
+        highest = -math.inf
+        for depth, j in sorted(met):
+            top = (heights[j] - CAMERA.above_floor_cm) / depth
+            seen[j] = seen[j] or top > highest
+            highest = max(highest, top)
+    return seen
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_view_against_brute_force(seed):
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 9))
+    heading, ways = rng.uniform(-9, 9), rng.uniform(-math.pi, math.pi, count)
+    radii, heights = rng.uniform(1, 3, count), rng.choice([1.0, 3.0, 3.0, 12.0], count)
+    reach = rng.uniform(3.5, 50, count)
+    centres = np.stack([35 + reach * np.cos(ways), 27 + reach * np.sin(ways)], axis=1)
+    slow = seen_column_by_column((35, 27), heading, centres, radii, heights)
+    assert discs(*centres, pupil=(35, 27), heading=heading, radii=radii, heights=heights) == slow

@@ -4,8 +4,8 @@ An object is the cause of an alarm if the alarm is not raised without it. So the
 controller are drawn again with one object left out, and the controller is asked again.
 
 An object that vanishes at the first of these pictures is a sudden change, which a controller may well answer. That
-answer is over before it is looked at: the state is at least ``scoring.back_s`` old, one second, which is five windows
-of the network's decision and more than five times its longest delay.
+answer is over before it is looked at: the state is at least ``scoring.back_s`` old, one second, and the network's
+potentials forget such a change in four frames, its decision in 0.3 s.
 """
 
 from __future__ import annotations
@@ -96,8 +96,8 @@ class Replay:
             keys=self._keys,
             light=self._light,
             shown=shown,
-            obstacles=obstacles if self._obstacles else None,
             walls=np.full(frames, WALL not in without),
+            **({"obstacles": obstacles} if self._obstacles else {}),
         )
         alarm_s = self._times_s[-1 - TOLERANCE_TICKS]
         where = f"controller {type(self._controller).__name__}, replay of the alarm at {alarm_s:.3f} s"

@@ -123,15 +123,29 @@ def discs_in_view(
     -------
     (T, B)
     """
+    to = centres - pupil[:, None]
+    bearings = wrap_rad(np.arctan2(to[..., 1], to[..., 0]) - headings[:, None])
+    reach = np.arcsin(np.minimum(radii / np.maximum(np.hypot(to[..., 0], to[..., 1]), 1e-9), 1.0))
+    within = np.abs(bearings) < math.radians(camera.fov_deg) / 2 + reach
+    near = np.flatnonzero(within.any(axis=0))  # most are out of the field of view all the time
+    seen = np.zeros(within.shape, np.bool_)
+    seen[:, near] = _in_columns(headings, to[:, near], radii[near], heights[near], camera)
+    return seen
+
+
+def _in_columns(
+    headings: Floats, to: Floats, radii: Floats, heights: Floats, camera: CameraParams
+) -> NDArray[np.bool_]:
+    """Return which cylinders at ``to`` (T, B, 2) from the pupil hold a column, by a ray through the middle of each."""
     half = camera.width_px / 2
     columns = np.arctan((np.arange(camera.width_px) + 0.5 - half) / half * math.tan(math.radians(camera.fov_deg) / 2))
     rays = headings[:, None] + columns
-    to = centres - pupil[:, None]
     along = to[..., 0, None] * np.cos(rays)[:, None] + to[..., 1, None] * np.sin(rays)[:, None]
-    beside2 = (to * to).sum(axis=-1)[..., None] - along * along
-    within2 = (radii * radii)[:, None] - beside2
+    within2 = (radii * radii)[:, None] - (to * to).sum(axis=-1)[..., None] + along * along
     chord = np.sqrt(np.maximum(within2, 0.0))
     met = (within2 >= 0) & (along + chord > 0)
+    if len(radii) < 2:
+        return np.asarray(met.any(axis=2))
     depth = np.where(met, np.maximum(along - chord, 1e-6), np.inf)
     top = (heights - camera.above_floor_cm)[:, None] / depth
     hidden = (depth[:, None] < depth[:, :, None]) & (top[:, None] >= top[:, :, None])  # (T, hidden, hider, W)
