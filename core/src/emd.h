@@ -1,34 +1,33 @@
 /* model/medulla/emd.py: the net motion of a row.
  *
  * Summed over a row, R_d = b_d (M'(x) M(x+d) - M(x) M'(x+d)) is M'(x) b_d (M(x+d) - M(x-d)), with nothing outside the
- * picture. The sum over rows is kept in double: it is a small difference of large numbers. */
+ * picture: one product a cell for all spans. The sum is kept in double: it is a small difference of large numbers. */
 #ifndef LOBULA_EMD_H
 #define LOBULA_EMD_H
 
 #include "scratch.h"
 
-/* M' times what the cells around pull. A cell is ON or OFF, never both, and the two have opposite signs: a product that
- * is not positive belongs to no channel. */
-INLINE vf motion(vf before, const float *adapted, const int *span, const vf *share, int spans) {
-    vf sum = vf_all(0.0f), zero = vf_all(0.0f);
+/* What one channel of the cells around pulls: those of the sign `side`, as magnitudes. */
+INLINE vf pull(const float *adapted, vf side, const int *span, const vf *share, int spans) {
+    vf sum = vf_all(0.0f);
     UNROLL for (int i = 0; i < spans; i++) {
-        vf right = vf_max(before * vf_load(adapted + span[i]), zero);
-        vf left = vf_max(before * vf_load(adapted - span[i]), zero);
+        vf right = vf_max(vf_xor(vf_load(adapted + span[i]), side), vf_all(0.0f));
+        vf left = vf_max(vf_xor(vf_load(adapted - span[i]), side), vf_all(0.0f));
         sum += share[i] * (right - left);
     }
     return sum;
 }
 
-/* `adapted`, ON less OFF, has zero margins; `kept`, the state's row, is the same one step ago. What the LGMDs read of
- * both goes to `excitation`. */
+/* `adapted`, ON less OFF, has zero margins: a cell is never both, so the sign of the step before (in `kept`, the state's
+ * row) says which channel the cells around are to be read from. What the LGMDs read of both goes to `excitation`. */
 INLINE vd emd_row_as(int n, const float *adapted, float *restrict kept, float *const *excitation, const int *span,
                      const float *span_share, int spans, int lgmds, vd sum) {
-    vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f), row = zero;
+    vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f);
     for (int i = 0; i < spans; i++) share[i] = vf_all(span_share[i]);
     float *on = lgmds ? excitation[E_ON] : NULL, *off = lgmds ? excitation[E_OFF] : NULL;
     float *on_before = lgmds ? excitation[E_ON_BEFORE] : NULL, *off_before = lgmds ? excitation[E_OFF_BEFORE] : NULL;
     for (int x = 0; x < n; x += LANES) {
-        vf before = vf_load(kept + x), now = vf_load(adapted + x);
+        vf before = vf_load(kept + x), now = vf_load(adapted + x), side = vf_sign(before);
         vf_store(kept + x, now);
         if (lgmds) {
             vf_store(on + x, vf_max(now, zero));
@@ -36,9 +35,8 @@ INLINE vd emd_row_as(int n, const float *adapted, float *restrict kept, float *c
             vf_store(on_before + x, vf_max(before, zero));
             vf_store(off_before + x, vf_max(zero - before, zero));
         }
-        row += motion(before, adapted + x, span, share, spans);
+        vd_add(&sum, vf_xor(before, side) * pull(adapted + x, side, span, share, spans));
     }
-    vd_add(&sum, row);
     return sum;
 }
 
@@ -53,10 +51,10 @@ static vd emd_row(int n, const float *adapted, float *kept, float *const *excita
 
 /* Where adaptation is off the channels overlap: one of them, and what it was before. */
 static vd emd_row_apart(int n, const float *now, const float *before, const step_plan *p, vd sum) {
-    vf share[LOBULA_MAX_SPANS], row = vf_all(0.0f);
+    vf share[LOBULA_MAX_SPANS];
     for (int i = 0; i < LOBULA_MAX_SPANS; i++) share[i] = vf_all(p->span_share[i]);
-    for (int x = 0; x < n; x += LANES) row += motion(vf_load(before + x), now + x, p->span, share, p->spans);
-    vd_add(&sum, row);
+    for (int x = 0; x < n; x += LANES)
+        vd_add(&sum, vf_load(before + x) * pull(now + x, vf_all(0.0f), p->span, share, p->spans));
     return sum;
 }
 

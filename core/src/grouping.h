@@ -52,7 +52,7 @@ static void column_row(int n, const float *above, const float *middle, const flo
 typedef struct {
     const float *sum, *column;
     int spacing;
-    float least;
+    vf least;
 } grouping_rows;
 
 /* S times the sum of its neighbourhood, nine times too large, for the cells `inside` the picture. */
@@ -63,7 +63,7 @@ INLINE grouped group_vector(const grouping_rows *r, int x, vm inside, int partia
     vf product = vf_load(r->sum + x * SUMS) * around;
     g.strongest = vf_max(g.strongest, around);
     vf_store(g.list, product);
-    g.list += (unsigned)vm_any(vf_ge(product, vf_all(r->least))) * LANES;
+    g.list += (unsigned)vm_any(vf_ge(product, r->least)) * LANES;
     return g;
 }
 

@@ -55,8 +55,8 @@ INLINE on_off edges(vf e, vf i, vf dead_zone, vf below) {
 INLINE vf below_zone(float dead_zone) { return vf_all(dead_zone > FLT_MIN ? -dead_zone : -FLT_MIN); }
 
 INLINE on_off halves(vf change) {
-    vf on = vf_max(change, vf_all(0.0f));
-    on_off x = {on, on - change};
+    vf zero = vf_all(0.0f);
+    on_off x = {vf_max(change, zero), vf_max(zero - change, zero)};
     return x;
 }
 
@@ -79,13 +79,13 @@ INLINE two_steps remember(vf signal, vf residual, float *kept) {
     return x;
 }
 
-/* model.lamina.fdsr of one channel, before its share */
-INLINE vf rise(two_steps x) { return vf_max(x.now - x.before, vf_all(0.0f)); }
+/* model.lamina.fdsr of one channel */
+INLINE vf adapt(two_steps x, vf share) { return vf_max(share * (x.now - x.before), vf_all(0.0f)); }
 
 INLINE void lamina_vector(int x, on_off signal, vf residual, vf share, const lamina_rows *r, int fdsr) {
     two_steps on = remember(signal.on, residual, r->kept[0] + x), off = remember(signal.off, residual, r->kept[1] + x);
     if (fdsr) {
-        vf_store(r->adapted + x, share * (rise(on) - rise(off)));
+        vf_store(r->adapted + x, adapt(on, share) - adapt(off, share));
     } else {
         vf_store(r->apart[0] + x, on.now);
         vf_store(r->apart[1] + x, off.now);

@@ -25,15 +25,15 @@ INLINE void excite(int x, vf signal, vf residual, float *kept, float *now_row, f
 
 /* model.retina.frame_difference, and where the LGMDs read it its ON and OFF channels (model.lamina.on_off) */
 INLINE void retina_vector(int x, vf now, const retina_constants *c, const retina_rows *r, int flash, int excites) {
-    vf luma = vf_load(r->luma + x);
+    vf luma = vf_load(r->luma + x), zero = vf_all(0.0f);
     if (flash) luma = c->gain * luma + c->offset;
     vf change = (now - luma) * c->scale;
     vf_store(r->luma + x, now);
     vf_store(r->change + x, change);
     if (excites) {
-        vf on = vf_max(change, vf_all(0.0f)), off = on - change;
-        excite(x, on, c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
-        excite(x, off, c->residual, r->kept[OFF], r->excitation[E_OFF], r->excitation[E_OFF_BEFORE]);
+        excite(x, vf_max(change, zero), c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
+        excite(x, vf_max(zero - change, zero), c->residual, r->kept[OFF], r->excitation[E_OFF],
+               r->excitation[E_OFF_BEFORE]);
     }
 }
 

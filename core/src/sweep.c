@@ -246,15 +246,11 @@ static float threshold(const lgmd_plan *q, float strongest) {
     return (float)(q->threshold_grey * omega(q, strongest));
 }
 
-/* The limit grows with the strongest sum. It stays a little below, so that rounding on the way to the final threshold
- * loses nothing. */
-static void raise_limit(scratch *k, const step_plan *p, int j) {
-    k->limit[j] = 0.999999f * threshold(&p->lgmd[j], vf_highest(k->grouped[j].strongest));
-}
-
-INLINE grouping_rows rows_to_group(const constants *c, scratch *k, const step_plan *p, int j, int y) {
-    if (y % 8 == 1) raise_limit(k, p, j); /* now and then is often enough */
-    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], k->limit[j]};
+static grouping_rows rows_to_group(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    /* The limit grows with the strongest sum; now and then is often enough. It stays a little below, so that rounding
+     * on the way to the final threshold loses nothing. */
+    if (y % 8 == 1) k->limit[j] = 0.999999f * threshold(&p->lgmd[j], vf_highest(k->grouped[j].strongest));
+    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(k->limit[j])};
     return r;
 }
 
