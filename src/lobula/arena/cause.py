@@ -79,7 +79,9 @@ class Replay:
         self._turning = np.concatenate([past.turning[:, robot], np.zeros(more, np.bool_)])
         # keys of frames that never were: any will do, so long as they are the same each time
         self._keys = np.concatenate([past.keys, ~past.keys[-1] ^ np.arange(1, more + 1, dtype=np.uint64)])
-        self._light = np.concatenate([past.light, world.light.gain(later_s)])
+        now, later = np.split(world.light.gain(np.append(past.times_s[-1], later_s)), [1])
+        camera = past.light[-1] / now[0] if now[0] else 1.0  # the camera's own gain stays as it is
+        self._light = np.concatenate([past.light, camera * later])
         self._obstacles = len(world.obstacles)
 
     def alarms(self, without: Collection[int] = ()) -> Bools:
