@@ -2,6 +2,9 @@
 
 #include <math.h>
 
+/* Variance that the noise of two pictures leaves between them, as model/retina.py. */
+#define NOISE_GREY2 4.5
+
 int find_flash(const kernels *k, extent e, picture image, picture previous, const change_summary *about,
                const lobula_flash_params *p, change_of_light *light) {
     if (p->enabled == 0.0 || fabs(about->mean) < p->min_change_grey) return 0;
@@ -16,9 +19,10 @@ int find_flash(const kernels *k, extent e, picture image, picture previous, cons
     double new_mean = s.new_sum / s.count, old_mean = s.old_sum / s.count;
     double variance = s.old_old / s.count - old_mean * old_mean;
     double covariance = s.new_old / s.count - new_mean * old_mean;
-    light->gain = variance > 1.0 ? covariance / variance : 1.0;
+    light->gain = variance > NOISE_GREY2 ? covariance / variance : 1.0;
     light->offset = new_mean - light->gain * old_mean;
     if (light->gain < p->min_gain || light->gain > p->max_gain) return 0;
     double rest = k->light_rest(e, image, previous, limit, light->gain, light->offset);
-    return rest <= (1.0 - p->min_explained) * s.change_change;
+    double new_variance = (s.change_change + 2.0 * s.new_old - s.old_old) / s.count - new_mean * new_mean;
+    return rest / s.count <= (1.0 - p->min_explained) * new_variance + NOISE_GREY2;
 }

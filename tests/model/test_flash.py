@@ -1,11 +1,13 @@
 """Changes of light before the whole network: silent on a still scene, no obstacle to an alarm."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from lobula.model.network import ReferenceNetwork
 from lobula.model.presets import preset
-from lobula.stimuli import flicker, still, with_flash, with_flicker
+from lobula.stimuli import flicker, looming, still, with_flash, with_flicker
 
 from .movies import approach, collisions, run, states
 
@@ -97,6 +99,31 @@ def test_flicker_does_not_hold_back_an_alarm(approaching):
         alarm = collisions(approaching.readings[:15] + run(net, movie.images[15:], movie.times_s[15:]))
         assert abs(alarm[0] - approaching.first) <= 2
         assert alarm == list(range(alarm[0], len(movie)))
+
+
+RUSHES = (
+    {"object_grey": 5.0, "background_grey": 45.0, "background": "stripes", "background_contrast_grey": 5.0,
+     "object_cm": 2.2, "height_cm": 1.3, "speed_cm_s": 87.5, "stop_cm": 0.1, "rate_hz": 15.0},
+    {"object_grey": 120.0, "background_grey": 175.0, "background": "blobs", "background_deg": 6.7,
+     "background_contrast_grey": 30.0, "object_cm": 6.3, "height_cm": 8.5, "speed_cm_s": 206.1, "stop_cm": 0.3,
+     "rate_hz": 15.0},
+    {"object_grey": 230.0, "background_grey": 140.0, "background": "stripes", "background_contrast_grey": 5.0,
+     "object_contrast_grey": 25.0, "object_cm": 10.0, "shape": "disc", "speed_cm_s": 196.5, "stop_cm": 1.0,
+     "rate_hz": 15.0},
+)  # fmt: skip
+"""So fast that one step takes the object from a part of the view over nearly all of it, dark and bright."""
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("settings", RUSHES, ids=lambda s: f"{s['object_grey']:g}")
+@pytest.mark.parametrize("noise_sigma", [0.0, 0.5, 1.5, 4.0])
+def test_object_that_jumps_over_the_view_is_no_flash(name, settings, noise_sigma):
+    movie = looming(start_cm=60.0, lead_s=0.4, hold_s=0.2, width=66, height=48, noise_sigma=noise_sigma, **settings)
+    p = preset(name)
+    readings = run(p, *lit(movie))
+    blind = run(replace(p, flash=replace(p.flash, enabled=False)), *lit(movie))
+    assert "flash" not in states(readings)
+    assert [r.collision for r in readings] == [r.collision for r in blind]
 
 
 def test_bright_object_in_the_dark_is_no_flash():

@@ -28,10 +28,15 @@ class FlashParams(Params):
         source="chosen",
     )  # fmt: skip
     min_explained: float = param(
-        0.5, "", "share of the squared change that one gain and offset explain", low=0, high=1, source="chosen"
-    )
+        0.7, "", "share of the new picture's variance that the old one explains, noise aside", low=0, high=1,
+        source="chosen",
+    )  # fmt: skip
     min_gain: float = param(0.2, "", "smallest gain a lamp or exposure step has", low=0.01, high=1, source="chosen")
     max_gain: float = param(5.0, "", "largest gain", low=1, high=100, source="chosen")
+
+
+NOISE_GREY2 = 4.5
+"""Variance that sensor noise of 1.5 grey in each of two pictures leaves between them, whatever the light."""
 
 
 class ChangeStatistics(NamedTuple):
@@ -72,9 +77,10 @@ def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p:
     """Return the change of light that explains the change of the picture, or None.
 
     A lamp, a shutter or an exposure step multiplies and shifts every pixel alike: image = gain * previous + offset.
-    A near object that spreads over the view does not, since what it covers no longer depends on what was there: its
-    fitted gain falls to zero, below ``min_gain``, and the alarm stands. One picture is fitted by least squares, and
-    only when most of it changed in one direction.
+    A near object that spreads over the view does not, since what it covers no longer depends on what was there: the
+    old picture does not explain the new one, and the alarm stands. One picture is fitted by least squares, and only
+    when most of it changed in one direction. The fit must explain the new picture's variance and not merely the
+    change, most of which is a shift of the mean in either case.
 
     Source: chosen; gain and offset are the two parameters of exposure control.
     """
@@ -91,11 +97,11 @@ def find_flash(image: NDArray[Any], previous: Image, about: ChangeStatistics, p:
     variance = float((old * old).mean() - old_mean * old_mean)
     covariance = float((new * old).mean() - new_mean * old_mean)
     # A blank picture has no texture to tell gain from offset: call it an offset.
-    gain = covariance / variance if variance > 1.0 else 1.0
+    gain = covariance / variance if variance > NOISE_GREY2 else 1.0
     offset = float(new_mean - gain * old_mean)
-    total = float(((new - old) ** 2).mean())
+    new_variance = float((new * new).mean() - new_mean * new_mean)
     rest = float(((new - gain * old - offset) ** 2).mean())
-    if not p.min_gain <= gain <= p.max_gain or rest > (1.0 - p.min_explained) * total:
+    if not p.min_gain <= gain <= p.max_gain or rest > (1.0 - p.min_explained) * new_variance + NOISE_GREY2:
         return None
     return Light(gain, offset)
 
