@@ -25,7 +25,12 @@ Bools = NDArray[np.bool_]
 
 
 class ControllerError(LobulaError, RuntimeError):
-    """A controller that raised, or that returned something other than a decision for each robot."""
+    """A controller that raised, or that returned something other than a decision for each robot.
+
+    ``run`` is what was done before, a ``running.Run``, where ``arena.run`` raised it.
+    """
+
+    run: Any = None
 
 
 class Controller(Protocol):

@@ -92,6 +92,11 @@ class History:
             return max(tick, oldest), None
         return next((moment for moment in reversed(kept) if moment[0] <= tick), kept[0])
 
+    def last(self) -> Rows:
+        """Return the last frame alone, (R, ...); good until the next one comes."""
+        row = self._rows - 1
+        return Rows(self._poses[row], self._phases[row], self._light[row], self._potentials[row])
+
     def since(self, tick: int) -> Rows:
         """Return a copy of the frames from ``tick`` to the last."""
         rows = slice(self._rows - (self.last_tick - tick + 1), self._rows)

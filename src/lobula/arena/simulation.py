@@ -142,26 +142,26 @@ class Simulation:
         ControllerError : the controller raised or returned nonsense; the robots have not moved then
         """
         start = perf_counter()
+        self._save_states()
+        saved = perf_counter()
         images, turning = self.see(), self.motion.turning
         seen = perf_counter()
         said = decide(self.controller, images, self.time_s, turning, self.tick_count)
         decided = perf_counter()
         avoiding = said & ~turning
         contacts = self.move(avoiding)
-        self.seconds["eye"] += seen - start
-        self.seconds["network"] += decided - seen
+        self.seconds["eye"] += seen - saved
+        self.seconds["network"] += decided - seen + saved - start
         self.seconds["physics"] += perf_counter() - decided
         return Tick(avoiding, contacts)
 
     def see(self) -> NDArray[np.uint8]:
         """Return what the robots see now (R, H, W), without going on."""
-        tick = self.tick_count
-        if self._keeper and tick % self._save_ticks == 0 and not self.history.has_saved(tick):
-            self.history.save(tick, [self._keeper.state(robot) for robot in range(len(self.pose))])
+        self._save_states()
         if not self._same_light:
             self._light = self._gains * self.world.light.gain(np.full(len(self.pose), self.time_s))
         self.images = self.eye.views(
-            self.pose, self.pose, own=self._own, keys=self.chance.keys(tick), light=self._light
+            self.pose, self.pose, own=self._own, keys=self.chance.keys(self.tick_count), light=self._light
         )
         return self.images
 
@@ -258,6 +258,11 @@ class Simulation:
             keeper.set_state(robot, state)
         self._take_poses()
         return self
+
+    def _save_states(self) -> None:
+        tick = self.tick_count
+        if self._keeper and tick % self._save_ticks == 0 and not self.history.has_saved(tick):
+            self.history.save(tick, [self._keeper.state(robot) for robot in range(len(self.pose))])
 
     def _follow_light(self, images: NDArray[np.uint8]) -> None:
         """Let each camera's gain go towards pictures of mean ``auto_gain_grey``, as a first-order filter."""

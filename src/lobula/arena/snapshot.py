@@ -19,7 +19,7 @@ ARRAY, TUPLE = "#array", "#tuple"
 file's array 0."""
 
 
-def save_snapshot(path: str | os.PathLike[str], tree: Mapping[str, Any]) -> None:
+def save_snapshot(path: str | os.PathLike[str], tree: Mapping[str, Any], *, compressed: bool = False) -> None:
     """Write ``tree`` to ``path``: all of it or, where that fails, nothing; what was there before then stays.
 
     Raises
@@ -34,7 +34,8 @@ def save_snapshot(path: str | os.PathLike[str], tree: Mapping[str, Any]) -> None
     try:
         try:
             with part.open("wb") as file:
-                np.savez(file, np.array(text), *arrays)
+                write = np.savez_compressed if compressed else np.savez
+                write(file, np.array(text), *arrays)
                 file.flush()
                 os.fsync(file.fileno())
             part.replace(path)

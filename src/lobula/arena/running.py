@@ -1,0 +1,243 @@
+"""A whole run: simulate, score, record; interrupted at any time, it can be taken up again to the same result."""
+
+from __future__ import annotations
+
+import os
+import signal
+import warnings
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from numpy.typing import NDArray
+
+from ..errors import OutputError, ParameterError
+from ..params import Params, settings_hash
+from ..runtime.interrupts import Interrupted, Interrupts
+from .controller import Controller, ControllerError, keeps_state
+from .network_controller import NetworkController
+from .record import Record, Recorder
+from .scorer import Scorer
+from .scoring import Score
+from .simulation import Simulation
+from .snapshot import load_snapshot, save_snapshot
+from .world import World
+from .world_file import parse_world, world_toml
+
+KIND = "lobula arena run 1"
+"""What a checkpoint says it is."""
+
+MOST_MINUTES = 100_000.0
+
+SNAPSHOT_MINUTES = 5.0
+"""Simulated time between two snapshots: what has to be done again after a failure in the middle of a tick."""
+
+Progress = Callable[[float, float], None]
+"""Called once a simulated second with the minutes done and the minutes asked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What came of a run.
+
+    world, seed, controller : what it was made from; the controller in words
+    minutes : simulated so far
+    finished : whether that is all that was asked for
+    score, events : what happened; events are EVENT_DTYPE
+    record : every frame, where it was asked for
+    seconds : time spent on eye, network, physics and scoring
+    snapshot : for ``run(resume=...)``; None where the controller does not keep its state
+    """
+
+    world: World
+    seed: int
+    controller: str
+    minutes: float
+    finished: bool
+    score: Score
+    events: NDArray[Any]
+    record: Record | None
+    seconds: Mapping[str, float]
+    snapshot: Mapping[str, Any] | None = field(repr=False)
+
+    @property
+    def robot_frames(self) -> int:
+        """Pictures seen, of all robots together."""
+        return round(self.minutes * 60 * self.world.camera.rate_hz) * self.world.robots.count
+
+
+class RunInterrupted(KeyboardInterrupt):
+    """A run that a signal ended; ``run`` is what was done, ``number`` the signal's."""
+
+    def __init__(self, run: Run, number: int) -> None:
+        super().__init__(f"interrupted after {run.minutes:.2f} simulated minutes")
+        self.run, self.number = run, number
+
+
+def run(
+    world: World | None = None,
+    controller: Controller | None = None,
+    *,
+    minutes: float | None = None,
+    seed: int | None = None,
+    robots: int | None = None,
+    record: bool = False,
+    progress: Progress | None = None,
+    checkpoint: str | os.PathLike[str] | None = None,
+    resume: str | os.PathLike[str] | Mapping[str, Any] | None = None,
+    engine: str = "auto",
+) -> Run:
+    """Let robots drive in ``world`` and count what happens.
+
+    Parameters
+    ----------
+    world : the arena; the paper's where nothing is given
+    controller : pictures in, decisions out, see ``controller``; the default network where nothing is given
+    minutes : of simulated time; 60 where nothing is given
+    seed : of all chance; 0 where nothing is given
+    robots : their number, instead of the world's
+    record : keep every frame, see ``record.Record``
+    progress : called once a simulated second
+    checkpoint : a file that is written every 5 simulated minutes and at the end, whatever ends the run
+    resume : such a file, or the ``snapshot`` of a ``Run``: go on from there. World, seed and minutes are those of
+        that run where they are not given; the controller must be given again
+    engine : of the eye: ``core``, ``reference`` or ``auto``
+
+    Raises
+    ------
+    ParameterError : a world without room for its robots, a checkpoint of another run
+    ControllerError : the controller raised or returned nonsense. Its ``run`` is what was done so far; it can be
+        resumed, from the last snapshot
+    RunInterrupted : Ctrl-C or SIGTERM, taken between two ticks. Its ``run`` is what was done so far
+    """
+    kept = load_snapshot(resume) if isinstance(resume, str | os.PathLike) else resume
+    if kept is not None:
+        if kept.get("kind") != KIND:
+            raise ParameterError(f"resume: is no checkpoint of a run, but holds {', '.join(kept) or 'nothing'}")
+        world = parse_world(kept["world"], "checkpoint") if world is None else world
+        seed = kept["seed"] if seed is None else seed
+        minutes = kept["minutes"] if minutes is None else minutes
+    world = World() if world is None else world
+    if robots is not None:
+        world = replace(world, robots=replace(world.robots, count=robots))
+    minutes = 60.0 if minutes is None else minutes
+    if not 0 < minutes <= MOST_MINUTES:
+        raise ParameterError(f"minutes = {minutes!r}: must be above 0 and at most {MOST_MINUTES:g}")
+    simulation = Simulation(world, controller or NetworkController(), 0 if seed is None else seed, engine=engine)
+    course = Course(simulation, minutes, record=record, checkpoint=checkpoint)
+    if kept is not None:
+        course.resume(kept)
+    try:
+        with Interrupts() as interrupts:
+            for _ in interrupts.between(iter(range(simulation.tick_count, course.ticks))):
+                course.tick(progress)
+    except Interrupted as stop:
+        course.keep()
+        raise RunInterrupted(course.result(), stop.number) from None
+    except KeyboardInterrupt:  # from within a tick, which is lost
+        raise RunInterrupted(course.result(), signal.SIGINT) from None
+    except ControllerError as error:
+        error.run = course.result()
+        raise
+    course.keep()
+    return course.result()
+
+
+class Course:
+    """A run under way: the simulation, who watches it, and the last snapshot of them all."""
+
+    def __init__(
+        self, simulation: Simulation, minutes: float, *, record: bool, checkpoint: str | os.PathLike[str] | None
+    ) -> None:
+        self.simulation, self.minutes, self.checkpoint = simulation, minutes, checkpoint
+        rate_hz = simulation.world.camera.rate_hz
+        self.ticks = max(1, round(minutes * 60 * rate_hz))
+        self.scorer = Scorer(simulation)
+        self.recorder = Recorder(simulation) if record else None
+        self.controller = _in_words(simulation.controller)
+        self.snapshot: dict[str, Any] | None = None
+        self._second, self._stretch = max(1, round(rate_hz)), max(1, round(SNAPSHOT_MINUTES * 60 * rate_hz))
+        self._before: dict[str, float] = {}
+        self.keep()
+
+    def tick(self, progress: Progress | None) -> None:
+        """Go through one tick."""
+        tick = self.simulation.tick()
+        if self.recorder:
+            self.recorder.tick(tick)
+        self.scorer.tick(tick)
+        done = self.simulation.tick_count
+        if done % self._stretch == 0:
+            self.keep()
+        if progress and done % self._second == 0:
+            progress(self.simulation.time_s / 60, self.minutes)
+
+    def keep(self) -> None:
+        """Take a snapshot, and write it to the checkpoint; a disk that is full does not end the run."""
+        if not keeps_state(self.simulation.controller) and not self.checkpoint:
+            return
+        self.snapshot = {
+            "kind": KIND,
+            "world": world_toml(self.simulation.world),
+            "seed": int(self.simulation.seed),
+            "minutes": self.minutes,
+            "controller": self.controller,
+            "simulation": self.simulation.snapshot(),
+            "scorer": self.scorer.state(),
+            "record": self.recorder.state() if self.recorder else None,
+            "seconds": self.seconds,
+        }
+        if self.checkpoint:
+            try:
+                save_snapshot(self.checkpoint, self.snapshot)
+            except OutputError as error:
+                warnings.warn(f"checkpoint {error}; the run goes on", RuntimeWarning, stacklevel=2)
+
+    def resume(self, kept: Mapping[str, Any]) -> None:
+        """Go on from a snapshot.
+
+        Raises
+        ------
+        ParameterError : it is of another world, seed or controller, or without the record that is asked for
+        """
+        if kept["controller"] != self.controller:
+            raise ParameterError(
+                f"checkpoint of {kept['controller']}: must be resumed with that, not {self.controller}"
+            )
+        if self.recorder and kept["record"] is None:
+            raise ParameterError("checkpoint without a record: must be resumed without one")
+        self.simulation.resume(kept["simulation"])
+        self.scorer.set_state(kept["scorer"])
+        if self.recorder:
+            self.recorder.set_state(kept["record"])
+        self._before = dict(kept["seconds"])
+        self.keep()
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Time spent so far on each part."""
+        now = {**self.simulation.seconds, "scoring": self.scorer.seconds}
+        return {part: spent + self._before.get(part, 0.0) for part, spent in now.items()}
+
+    def result(self) -> Run:
+        """Return what was done so far."""
+        simulation, events = self.simulation, self.scorer.events
+        finished = simulation.tick_count >= self.ticks
+        return Run(
+            world=simulation.world,
+            seed=simulation.seed,
+            controller=self.controller,
+            minutes=simulation.time_s / 60,
+            finished=finished,
+            score=self.scorer.score(),
+            events=events,
+            record=self.recorder.record(events, self.controller) if self.recorder else None,
+            seconds=self.seconds,
+            snapshot=None if finished else self.snapshot,
+        )
+
+
+def _in_words(controller: Controller) -> str:
+    """Return the controller's kind, and the hash of its settings where it has some."""
+    params = getattr(controller, "params", None)
+    return type(controller).__name__ + (f" {settings_hash(params)}" if isinstance(params, Params) else "")
