@@ -52,11 +52,11 @@ def spawn(tmp_path):
     """Start ``python -m lobula`` as a process of its own, in an empty folder."""
     started = []
 
-    def run(*arguments, **how):
+    def run(*arguments, environment=None, **how):
         how = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "cwd": tmp_path, "text": True} | how
         process = subprocess.Popen(
             [sys.executable, "-m", "lobula", *map(str, arguments)],
-            env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(SRC)}, **how,
+            env={"PATH": "/usr/bin:/bin", "PYTHONPATH": str(SRC), **(environment or {})}, **how,
         )  # fmt: skip
         started.append(process)
         return process

@@ -173,7 +173,12 @@ def test_a_pipe_that_holds_nothing(spawn):
 
 
 def test_a_pattern_without_quotes(call):
-    assert 'quote a pattern, as in "shots/*.png"' in call("run", "a.png", "b.png", "c.png").err
+    names = [f"{i}.png" for i in range(100)]
+    line = call("run", *names).err
+    assert 'quote a pattern, as in "shots/*.png"' in line
+    assert "(1.png ...)" in line
+    assert "2.png" not in line
+    assert "(b.png)" in call("run", "a.png", "b.png").err
 
 
 def test_an_empty_file_is_called_that(call, tmp_path):

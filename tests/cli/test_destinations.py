@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import shutil
 
 import numpy as np
@@ -68,6 +69,14 @@ def test_an_output_that_is_read_is_refused_and_nothing_is_touched(call, own, arg
         (["run", "q.mp4", "--report", "q.mp4"], "--report q.mp4: q.mp4 is a file, must be a folder"),
         (["run", "q.mp4", "--report", "q.mp4/r"], "--report q.mp4/r: q.mp4 is a file, must be a folder"),
         (["run", "q.mp4", "--annotate", "d.mp4"], "--annotate d.mp4: is a folder, must be a file"),
+        (["run", "q.mp4", "--trace", "."], "--trace .: is a folder, must be a file"),
+        (["run", "q.mp4", "--trace", "/"], "--trace /: is a folder, must be a file"),
+        (["run", "q.mp4", "--report", "/dev/null/r"], "--report /dev/null/r: /dev/null is a file, must be a folder"),
+        (["plot", "."], "trace .: is a folder, must be a file"),
+        (["plot", "t.csv", "--out", "."], "--out .: is a folder, must be a file"),
+        (["demo", "--out", "."], "--out .: must end in .png, .svg, .pdf"),
+        (["demo", "--out", "a.gif"], "--out a.gif: must end in .png, .svg, .pdf"),
+        (["explain", "q.mp4", "--at", "1", "--out", "a.svg"], "--out a.svg: must end in .png"),
         (["run", "q.mp4", "--report", "r", "--trace", "r/trace.csv"], "is written by --trace too: must be another"),
         (["explain", "q.mp4", "--at", "1", "--out", "no/a.png"], "cannot write no/a.png: no such folder no"),
         (["demo", "--out", "no/a.png"], "cannot write no/a.png: no such folder no"),
@@ -82,6 +91,16 @@ def test_outputs_that_cannot_be(call, own, arguments, says):
     assert (done.code, done.err.count("\n")) == (2, 1)
     assert says in done.err
     assert (own / "file").read_text() == "kept"
+
+
+def test_a_report_folder_that_cannot_be_made_refuses_the_run(call, own, monkeypatch):
+    def no_room(folder, **_):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr("pathlib.Path.mkdir", no_room)
+    done = call("run", "q.mp4", "--json", "--report", "r")
+    assert (done.code, done.err) == (2, "lobula: cannot write r: no permission\n")
+    assert [r["status"] for r in done.records] == ["refused"]
 
 
 def test_outputs_beside_the_source_are_fine(call, own):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 
 import numpy as np
@@ -135,3 +136,15 @@ def test_python_m_lobula_and_a_reader_that_leaves(spawn, clip):
     process.stdout.close()
     assert process.wait(30) == 0
     assert process.stderr.read() == ""
+
+
+@pytest.mark.parametrize("arguments", [["config", "show"], ["stimulus", "--list"], ["run", "none.mp4", "--json"]])
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_that_left_before_is_no_fault(spawn, arguments, unbuffered):
+    reading, writing = os.pipe()
+    os.close(reading)
+    process = spawn(*arguments, stdout=writing, environment={"PYTHONUNBUFFERED": unbuffered})
+    os.close(writing)
+    _, err = process.communicate(timeout=30)
+    assert process.returncode == (2 if "none.mp4" in arguments else 0)
+    assert err == ("lobula: none.mp4: no such file or folder\n" if "none.mp4" in arguments else "")

@@ -48,6 +48,10 @@ class TestDemo:
         with lobula.open(tmp_path / "lobula-demo.png") as frames:
             assert frames.source_width >= 600
 
+    def test_without_matplotlib_other_pictures_need_it(self, call):
+        done = call("demo", "--out", "d.svg")
+        assert (done.code, 'pip install "lobula[plot]"' in done.err) == (2, True)
+
     def test_with_matplotlib_it_draws_with_that(self, call, tmp_path, monkeypatch):
         monkeypatch.undo()
         pytest.importorskip("matplotlib")

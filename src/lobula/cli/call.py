@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import sys
 import warnings
 from collections.abc import Sequence
@@ -42,7 +43,10 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         with raised_at_once():
             result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
         return _flushed(result if isinstance(result, int) else 0)
-    except BrokenPipeError:
+    except (BrokenPipeError, SystemExit) as error:
+        # a reader that has gone is no fault; typer turns it into an exit of its own
+        if not isinstance(error, BrokenPipeError) and not isinstance(error.__context__, BrokenPipeError):
+            raise
         _silence(sys.stdout)
         return 0
     except LobulaError as error:
@@ -56,6 +60,7 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         return _complain(f"interrupted ({stop})", stop.exit_code)
     except _ParserError as error:
         message = cast(Any, error).format_message().rstrip(".")
+        message = re.sub(r"(extra arguments?\S* \(\S+) .+\)$", r"\1 ...)", message)  # a shell's pattern: many names
         if "unexpected extra argument" in message and verb in ("run", "explain"):
             message += '; one SOURCE is read: quote a pattern, as in "shots/*.png"'
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)

@@ -54,12 +54,14 @@ def demo(
     Only the first must raise an alarm; the exit code is 1 if that is not so.
     """
     from ..engine.network import Network
+    from ..report.plots import FIGURE_SUFFIXES
     from ..stimuli import CATALOGUE
-    from .destinations import check_files
+    from .destinations import check_ending, check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
 
+    check_ending("--out", out, FIGURE_SUFFIXES)
     check_files({"--out": out}, {"settings file": config})
     params = choose(preset, neurons, config, settings or (), sensitivity).params
     network = Network(params, engine=engine)
@@ -168,7 +170,7 @@ def _short(s: Shown) -> str:
 
 
 def _draw(shown: list[Shown], params: NetworkParams, out: Path) -> None:
-    """Draw with matplotlib where it is, else with lobula's own pen."""
+    """Draw with matplotlib where it is, else with lobula's own pen, which knows PNG alone."""
     from ..errors import MissingExtraError
     from ..report.plots import Scene, plot_scenes, save_figure
     from ..report.png import write_png
@@ -180,4 +182,6 @@ def _draw(shown: list[Shown], params: NetworkParams, out: Path) -> None:
     try:
         save_figure(plot_scenes(scenes, about), out)
     except MissingExtraError:
+        if out.suffix.lower() != ".png":
+            raise
         write_png(out, scene_sheet(scenes, about))

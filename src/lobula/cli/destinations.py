@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import glob
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 from ..errors import ParameterError
@@ -26,6 +26,8 @@ def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None
     for option, path in outputs.items():
         if path is None:
             continue
+        if path.is_dir():
+            raise ParameterError(f"{option} {path}: is a folder, must be a file")
         for written in (path, part_of(path)):  # the second while the work goes on
             for identity in _identities([written]):
                 if identity in read:
@@ -33,13 +35,22 @@ def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None
                         f"{option} {path}: would overwrite {written}, which is the {read[identity]} "
                         "itself: must be another file"
                     )
-        if path.is_dir():
-            raise ParameterError(f"{option} {path}: is a folder, must be a file")
         if not path.parent.is_dir() and (made is None or path.parent.resolve() != made.resolve()):
             raise ParameterError(f"cannot write {path}: no such folder {path.parent}")
         if path.resolve() in taken:
             raise ParameterError(f"{option} {path}: is written by {taken[path.resolve()]} too: must be another file")
         taken[path.resolve()] = option
+
+
+def check_ending(option: str, path: Path, endings: Sequence[str]) -> None:
+    """Check that a file that is to be written is of a kind that can be written.
+
+    Raises
+    ------
+    ParameterError : another ending
+    """
+    if path.suffix.lower() not in endings:
+        raise ParameterError(f"{option} {path}: must end in {', '.join(endings)}")
 
 
 def check_folder(option: str, folder: Path) -> None:

@@ -46,11 +46,13 @@ def explain(
     from ..runtime.explanation import explain as explain_frame
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw
-    from .destinations import check_files
+    from .destinations import check_ending, check_files
     from .print_json import print_json
     from .progress import say
     from .settings import choose
 
+    if out is not None:
+        check_ending("--out", out, (".png",))
     check_files({"--out": out}, {"source": source, "mask": mask, "yaw file": yaw, "settings file": config})
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     view = o.view(size, fit, roi, mask, flip, rotate)

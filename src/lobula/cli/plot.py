@@ -31,6 +31,8 @@ def plot(
     from .print_json import print_json
     from .progress import say
 
+    if trace.is_dir():
+        raise ParameterError(f"trace {trace}: is a folder, must be a file")
     figure_path = out or trace.with_suffix(".png")
     check_files({"--out": figure_path}, {"trace": trace})
     rows = read_trace(trace)

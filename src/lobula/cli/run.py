@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import LobulaError, ParameterError
+from ..errors import LobulaError, OutputError, ParameterError
 from . import options as o
 from .call import new_app
 from .progress import Screen, screen
@@ -63,7 +64,7 @@ def run(
     from ..model.scaling import scaled
     from ..runtime.interrupts import Interrupted
     from ..runtime.loop import unbegun_summary
-    from ..runtime.ndjson import NdjsonSink
+    from ..runtime.ndjson import NdjsonSink, ReaderGoneError
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
@@ -92,7 +93,10 @@ def run(
     except (LobulaError, Interrupted) as error:
         if json:
             status = "interrupted" if isinstance(error, Interrupted) else "refused"
-            NdjsonSink(sys.stdout).close(unbegun_summary(status, str(error)))
+            with suppress(ReaderGoneError):
+                NdjsonSink(sys.stdout).close(unbegun_summary(status, str(error)))
+        if isinstance(error, OutputError):  # a folder that cannot be made: nothing was under way that could fail
+            raise ParameterError(str(error)) from error
         raise
     with frames, screen(frames.frame_count, Path(frames.name).name) as here:
         return _watch(frames, params, chosen.preset, network, turns, files, json, here)
