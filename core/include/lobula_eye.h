@@ -43,14 +43,14 @@ enum { LOBULA_EYE_BOX, LOBULA_EYE_CIRCLE };
 
 typedef struct {
     int32_t shape;
-    int32_t posts;             /* cylinders that stay where they are */
+    int32_t obstacles;         /* cylinders that stay where they are */
     double width_cm, depth_cm; /* along x and y; of a circle both are its diameter */
     double wall_cm;            /* its height */
     double floor_grey, above_grey;
-    lobula_eye_strip wall;      /* counter-clockwise from the lower left corner; in a circle from the point at heading 0 */
-    lobula_eye_cylinder body;   /* of every robot */
-    const lobula_eye_cylinder *post;
-    const double *post_poses;   /* (posts, 3): x, y, heading */
+    lobula_eye_strip wall;    /* counter-clockwise from the lower left corner; in a circle from the point at heading 0 */
+    lobula_eye_cylinder body; /* of every robot */
+    const lobula_eye_cylinder *obstacle;
+    const double *obstacle_poses; /* (obstacles, 3): x, y, heading */
 } lobula_eye_scene;
 
 typedef struct {
@@ -61,16 +61,17 @@ typedef struct {
 
 /* What to draw. A pointer that may be NULL says so. */
 typedef struct {
-    int64_t count;          /* views */
-    int64_t bodies;         /* robots in each */
-    const double *cameras;  /* (count, 3): x and y of the robot's centre, heading */
-    const double *poses;    /* (count, bodies, 3), or (bodies, 3) for all of them */
-    int64_t poses_step;     /* doubles from one view's bodies to the next's: 3 bodies, or 0 */
-    const int32_t *own;     /* (count): which body the camera sits on, never seen; -1 or NULL: none */
-    const uint64_t *keys;   /* (count): the noise is a function of key and pixel; NULL: no noise */
-    const double *light;    /* (count): gain on all luminance; NULL: 1 */
-    const uint8_t *shown;   /* (count, bodies): 0 leaves a body out; NULL: all are there */
-    const uint8_t *walls;   /* (count): 0 paints the wall in its mean grey; NULL: as it is */
+    int64_t count;            /* views */
+    int64_t bodies;           /* robots in each */
+    const double *cameras;    /* (count, 3): x and y of the robot's centre, heading */
+    const double *poses;      /* (count, bodies, 3), or (bodies, 3) for all of them */
+    int64_t poses_step;       /* doubles from one view's bodies to the next's: 3 bodies, or 0 */
+    const int32_t *own;       /* (count): which body the camera sits on, never seen; -1 or NULL: none */
+    const uint64_t *keys;     /* (count): the noise is a function of key and pixel; NULL: no noise */
+    const double *light;      /* (count): gain on all luminance; NULL: 1 */
+    const uint8_t *shown;     /* (count, bodies): 0 leaves a body out; NULL: all are there */
+    const uint8_t *obstacles; /* (count, obstacles): the same for these */
+    const uint8_t *walls;     /* (count): 0 paints the wall in its mean grey; NULL: as it is */
 } lobula_eye_views;
 
 LOBULA_API int lobula_eye_abi(void);

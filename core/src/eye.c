@@ -41,13 +41,13 @@ static char *take(char *base, size_t *used, size_t bytes) {
 
 static size_t edges_of(const lobula_eye_scene *scene, int64_t bodies) {
     size_t edges = EYE_ROOM_EDGES + (size_t)bodies * (size_t)(scene->body.bands + EYE_EDGES);
-    for (int32_t i = 0; i < scene->posts; i++) edges += (size_t)(scene->post[i].bands + EYE_EDGES);
+    for (int32_t i = 0; i < scene->obstacles; i++) edges += (size_t)(scene->obstacle[i].bands + EYE_EDGES);
     return edges;
 }
 
 static eye_memory memory_at(void *base, const lobula_eye_scene *scene, const lobula_eye_camera *c, int64_t bodies) {
     eye_memory m = {.size = 0};
-    size_t pixels = (size_t)c->width * (size_t)c->height, cylinders = (size_t)bodies + (size_t)scene->posts;
+    size_t pixels = (size_t)c->width * (size_t)c->height, cylinders = (size_t)bodies + (size_t)scene->obstacles;
     m.scratch.cylinders = (void *)take(base, &m.size, cylinders * sizeof(eye_cylinder));
     m.scratch.cuts = (void *)take(base, &m.size, (cylinders * EYE_CUTS + EYE_ROOM_CUTS) * sizeof(double));
     m.scratch.edges = (void *)take(base, &m.size, edges_of(scene, bodies) * sizeof(eye_edge));
@@ -82,11 +82,11 @@ static int camera_is_good(const lobula_eye_camera *c) {
 }
 
 static int scene_is_good(const lobula_eye_scene *s) {
-    if ((s->shape != LOBULA_EYE_BOX && s->shape != LOBULA_EYE_CIRCLE) || s->posts < 0 ||
-        s->posts > LOBULA_EYE_MAX_CYLINDERS || (s->posts && (!s->post || !s->post_poses)))
+    if ((s->shape != LOBULA_EYE_BOX && s->shape != LOBULA_EYE_CIRCLE) || s->obstacles < 0 ||
+        s->obstacles > LOBULA_EYE_MAX_CYLINDERS || (s->obstacles && (!s->obstacle || !s->obstacle_poses)))
         return 0;
-    for (int32_t i = 0; i < s->posts; i++)
-        if (!cylinder_is_good(&s->post[i]) || !pose_is_good(s->post_poses + 3 * i)) return 0;
+    for (int32_t i = 0; i < s->obstacles; i++)
+        if (!cylinder_is_good(&s->obstacle[i]) || !pose_is_good(s->obstacle_poses + 3 * i)) return 0;
     return between(s->width_cm, 0.1, 1e6) && between(s->depth_cm, 0.1, 1e6) && length_is_good(s->wall_cm) &&
            between(s->floor_grey, 0, 255) && between(s->above_grey, 0, 255) && strip_is_good(&s->wall) &&
            cylinder_is_good(&s->body);
@@ -97,7 +97,9 @@ static int views_are_good(const lobula_eye_views *v) {
         (v->bodies && !v->poses))
         return 0;
     for (int64_t i = 0; i < v->count; i++) {
-        if (!pose_is_good(v->cameras + 3 * i) || (v->light && !between(v->light[i], 0, LOBULA_EYE_MAX_LIGHT))) return 0;
+        if (!pose_is_good(v->cameras + 3 * i) || (v->light && !between(v->light[i], 0, LOBULA_EYE_MAX_LIGHT)) ||
+            (v->own && (v->own[i] < -1 || v->own[i] >= v->bodies)))
+            return 0;
         for (int64_t j = 0; j < v->bodies && (i == 0 || v->poses_step); j++)
             if (!pose_is_good(v->poses + i * v->poses_step + 3 * j)) return 0;
     }
@@ -132,9 +134,11 @@ int lobula_eye_draw(const lobula_eye_scene *scene, const lobula_eye_camera *came
         return LOBULA_BAD_ARGUMENT;
     eye_memory m = memory_at(workspace, scene, camera, v->bodies);
     for (int64_t i = 0; i < v->count; i++) {
-        eye_moment moment = {v->cameras + 3 * i, v->poses + i * v->poses_step, v->shown ? v->shown + i * v->bodies : NULL,
-                             v->bodies, v->own ? v->own[i] : -1, v->light ? v->light[i] : 1.0,
-                             !v->walls || v->walls[i]};
+        eye_moment moment = {.camera = v->cameras + 3 * i, .poses = v->poses + i * v->poses_step, .bodies = v->bodies,
+                             .shown = v->shown ? v->shown + i * v->bodies : NULL,
+                             .obstacles = v->obstacles ? v->obstacles + i * scene->obstacles : NULL,
+                             .own = v->own ? v->own[i] : -1, .light = v->light ? v->light[i] : 1.0,
+                             .wall_pattern = !v->walls || v->walls[i]};
         eye_noise noise = noise_of(v->keys ? v->keys[i] : 0, v->keys ? camera->noise_grey : 0.0);
         eye_view(scene, camera, &moment, &m.scratch, m.columns);
         if (camera->blur_px > 0) eye_blur(m.columns, m.spare, camera->width, camera->height, camera->blur_px);

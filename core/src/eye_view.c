@@ -201,7 +201,9 @@ void eye_view(const lobula_eye_scene *scene, const lobula_eye_camera *camera, co
     e.strip = moment->wall_pattern && scene->wall.samples > 0 ? &scene->wall : NULL;
     e.wall_grey = eye_strip_grey(&scene->wall);
     set_walls(&e, scratch->cuts);
-    for (int32_t i = 0; i < scene->posts; i++) add_cylinder(&e, &scene->post[i], scene->post_poses + 3 * i, scratch);
+    for (int32_t i = 0; i < scene->obstacles; i++)
+        if (!moment->obstacles || moment->obstacles[i])
+            add_cylinder(&e, &scene->obstacle[i], scene->obstacle_poses + 3 * i, scratch);
     for (int64_t i = 0; i < moment->bodies; i++)
         if (i != moment->own && (!moment->shown || moment->shown[i]))
             add_cylinder(&e, &scene->body, moment->poses + 3 * i, scratch);

@@ -16,7 +16,7 @@ typedef struct {
 
 /* Memory that a view needs. */
 typedef struct {
-    eye_cylinder *cylinders; /* every body and post */
+    eye_cylinder *cylinders; /* every body and obstacle */
     double *cuts;            /* where in the picture something begins or ends */
     eye_edge *edges;         /* of a column: the wall's, and those of all cylinders */
     float *column;
@@ -31,7 +31,7 @@ enum { EYE_ROOM_EDGES = 2, EYE_EDGES = 2 };
 /* What differs from view to view. */
 typedef struct {
     const double *camera, *poses;
-    const uint8_t *shown; /* NULL: all */
+    const uint8_t *shown, *obstacles; /* NULL: all */
     int64_t bodies, own;
     double light;
     int wall_pattern;

@@ -22,7 +22,7 @@ from .reference_eye import ReferenceEye
 from .scene import Scene
 from .world import CameraParams
 
-LARGEST_CM = 1e6
+LARGEST = 1e6
 MOST_LIGHT = 1000.0
 
 
@@ -61,6 +61,7 @@ class Eye:
         keys: ArrayLike | None = None,
         light: ArrayLike | None = None,
         shown: ArrayLike | None = None,
+        obstacles: ArrayLike | None = None,
         walls: ArrayLike | None = None,
         out: NDArray[np.uint8] | None = None,
     ) -> NDArray[np.uint8]:
@@ -74,6 +75,7 @@ class Eye:
         keys : (N,) uint64; the noise is a function of key and pixel. Nothing: without noise
         light : (N,) gain on all luminance, in 0..1000; nothing: 1
         shown : (N, B) False leaves a body out; nothing: all are there
+        obstacles : (N, P) the same for the scene's obstacles
         walls : (N,) False paints the wall its mean grey; nothing: as it is
         out : (N, H, W) uint8 to write into, contiguous
 
@@ -90,30 +92,39 @@ class Eye:
         if poses.ndim not in (2, 3) or poses.shape[-1] != 3 or (poses.ndim == 3 and len(poses) != count):
             raise ShapeError(f"Eye.views: bodies {poses.shape}: must be ({count}, B, 3) or (B, 3)")
         number = poses.shape[-2]
-        for name, array in (("cameras", places), ("bodies", poses)):
-            if not (np.abs(array) <= LARGEST_CM).all():  # so that NaN is refused too
-                raise ParameterError(f"Eye.views: {name}: every number must be finite, within +-{LARGEST_CM:g}")
         optional = {
             "own": _optional("own", own, np.int32, (count,)),
             "keys": _optional("keys", keys, np.uint64, (count,)),
             "light": _optional("light", light, np.float64, (count,)),
             "shown": _optional("shown", shown, np.bool_, (count, number)),
+            "obstacles": _optional("obstacles", obstacles, np.bool_, (count, len(self.scene.obstacles))),
             "walls": _optional("walls", walls, np.bool_, (count,)),
         }
-        given = optional["light"]
-        if given is not None and not ((given >= 0) & (given <= MOST_LIGHT)).all():
-            raise ParameterError(f"Eye.views: light: every gain must be in [0, {MOST_LIGHT:g}]")
-        given = optional["own"]
-        if given is not None and not ((given >= -1) & (given < number)).all():
-            raise ParameterError(f"Eye.views: own: must be the index of one of {number} bodies, or -1")
         if out is None:
             out = np.empty((count, *self.shape), np.uint8)
         elif out.shape != (count, *self.shape) or out.dtype != np.uint8 or not out.flags.c_contiguous:
             raise ShapeError(
                 f"Eye.views: out: {out.dtype} {out.shape}: must be contiguous uint8 {(count, *self.shape)}"
             )
-        self._eye.views(places, poses, optional, out)
+        if isinstance(self._eye, ReferenceEye):
+            _require_values(places, poses, optional)
+            self._eye.views(places, poses, optional, out)
+        elif not self._eye.views(places, poses, optional, out):  # it looks at the numbers itself, more quickly
+            _require_values(places, poses, optional)
+            raise RuntimeError("the C core refuses these views")
         return out
+
+
+def _require_values(cameras: NDArray[Any], bodies: NDArray[Any], optional: dict[str, NDArray[Any] | None]) -> None:
+    for name, array in (("cameras", cameras), ("bodies", bodies)):
+        if not (np.abs(array) <= LARGEST).all():  # so that NaN is refused too
+            raise ParameterError(f"Eye.views: {name}: every number must be finite, within +-{LARGEST:g}")
+    light, own = optional["light"], optional["own"]
+    if light is not None and not ((light >= 0) & (light <= MOST_LIGHT)).all():
+        raise ParameterError(f"Eye.views: light: every gain must be in [0, {MOST_LIGHT:g}]")
+    number = bodies.shape[-2]
+    if own is not None and not ((own >= -1) & (own < number)).all():
+        raise ParameterError(f"Eye.views: own: must be the index of one of {number} bodies, or -1")
 
 
 def _array(name: str, given: ArrayLike, dtype: DTypeLike) -> NDArray[Any]:

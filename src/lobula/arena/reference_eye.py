@@ -7,6 +7,7 @@ and cylinders that it does not pass over, and else the floor or what is above.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,32 +44,33 @@ class ReferenceEye:
 
     def __init__(self, scene: Scene, camera: CameraParams, *, samples: tuple[int, int] = (8, 8)) -> None:
         self.scene, self.camera, self.samples = scene, camera, samples
+        self._obstacles = list(zip(scene.obstacles, scene.obstacle_poses, strict=True))
 
     def views(
         self, cameras: Floats, bodies: Floats, optional: dict[str, NDArray[Any] | None], out: NDArray[np.uint8]
     ) -> None:
         """Draw into ``out`` (N, H, W); ``arena.eye.Eye.views`` has the arguments, checked there."""
-        own, keys, light, shown, walls = (optional[name] for name in ("own", "keys", "light", "shown", "walls"))
+        own, keys, light, walls = (optional[name] for name in ("own", "keys", "light", "walls"))
         for i, camera in enumerate(cameras):
             poses = bodies if bodies.ndim == 2 else bodies[i]
-            there = np.ones(len(poses), bool) if shown is None else np.array(shown[i], bool)
-            if own is not None and own[i] >= 0:
-                there[own[i]] = False
-            image = self.luminance(camera, poses[there], pattern=walls is None or bool(walls[i]))
+            there, stands = (_there(optional[name], i) for name in ("shown", "obstacles"))
+            hidden = -1 if own is None else int(own[i])
+            cylinders = [(o, p) for k, (o, p) in enumerate(self._obstacles) if stands(k)]
+            cylinders += [(self.scene.body, p) for k, p in enumerate(poses) if there(k) and k != hidden]
+            image = self.luminance(camera, cylinders, pattern=walls is None or bool(walls[i]))
             image = blurred(image * (1.0 if light is None else float(light[i])), self.camera.blur_px)
             out[i] = sensed(image, self.camera.noise_grey, None if keys is None else int(keys[i]))
 
-    def luminance(self, camera: Floats, poses: Floats, *, pattern: bool = True) -> Floats:
-        """Return the light that falls on each pixel, (H, W), before blur, gain and noise."""
+    def luminance(self, camera: Floats, cylinders: list[tuple[Cylinder, Floats]], *, pattern: bool) -> Floats:
+        """Return the light that falls on each pixel, (H, W), before gain, blur and noise; ``cylinders`` with poses."""
         height, width = self.camera.height_px, self.camera.width_px
         across, down = self.samples
         rays = self._rays(camera)
         grey = self._room(rays, pattern)
         nearest = np.full(rays.slopes.shape, np.inf)
-        cylinders = [(post, pose) for post, pose in zip(self.scene.posts, self.scene.post_poses, strict=True)]
-        for cylinder, pose in cylinders + [(self.scene.body, pose) for pose in poses]:
+        for cylinder, pose in cylinders:
             _draw(cylinder, pose, rays, grey, nearest)
-        return grey.reshape(width, across, height, down).mean(axis=(1, 3)).T
+        return np.asarray(grey.reshape(width, across, height, down).mean(axis=(1, 3)).T)
 
     def _rays(self, camera: Floats) -> _Rays:
         c = self.camera
@@ -105,6 +107,10 @@ class ReferenceEye:
         hit_cm = rays.height_cm + rays.slopes * reach[:, None]
         grey = np.where(hit_cm > scene.wall_cm, scene.above_grey, wall[:, None])
         return np.where(hit_cm < 0, scene.floor_grey, grey)
+
+
+def _there(flags: NDArray[Any] | None, view: int) -> Callable[[int], bool]:
+    return lambda k: flags is None or bool(flags[view, k])
 
 
 def _box(rays: _Rays, size_cm: tuple[float, float]) -> tuple[Floats, Floats]:
@@ -172,7 +178,7 @@ def _around(cylinder: Cylinder, bearings: Floats) -> Floats:
     if n == 0:
         return np.zeros(len(bearings))
     sector = (np.mod(bearings / (2 * np.pi), 1.0) * n).astype(int)
-    return np.asarray(cylinder.around_grey)[np.minimum(sector, n - 1)]
+    return np.asarray(cylinder.around_grey[np.minimum(sector, n - 1)])
 
 
 def blurred(image: Floats, sd_px: float) -> Floats:
@@ -184,7 +190,8 @@ def blurred(image: Floats, sd_px: float) -> Floats:
     kernel /= kernel.sum()
     for axis in (0, 1):
         wide = np.pad(image, [(radius, radius) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
-        image = sum(w * np.take(wide, range(k, k + image.shape[axis]), axis) for k, w in enumerate(kernel))
+        parts = [w * np.take(wide, range(k, k + image.shape[axis]), axis) for k, w in enumerate(kernel)]
+        image = np.sum(parts, axis=0)
     return image
 
 
@@ -209,7 +216,7 @@ def sensed(image: Floats, noise_grey: float, key: int | None) -> NDArray[np.uint
     levels = np.floor(image.astype(np.float32) * np.float32(GREY) + np.float32(0.5)).astype(np.int64)
     if key is not None and noise_grey > 0:
         levels += noise(key, (image.shape[0], image.shape[1]), noise_grey)
-    return np.clip((levels + GREY // 2) >> 7, 0, 255).astype(np.uint8)
+    return np.asarray(np.clip((levels + GREY // 2) >> 7, 0, 255), np.uint8)
 
 
 def _mixed(key: int) -> tuple[int, int]:

@@ -42,7 +42,7 @@ class Scene:
         corner, in a circle from the point at heading 0
     floor_grey, above_grey : luminance below and above the wall
     body : every robot
-    posts, post_poses : (P,) cylinders at (P, 3) x, y, heading
+    obstacles, obstacle_poses : (P,) cylinders at (P, 3) x, y, heading
     """
 
     shape: str
@@ -52,8 +52,8 @@ class Scene:
     floor_grey: float
     above_grey: float
     body: Cylinder
-    posts: tuple[Cylinder, ...] = ()
-    post_poses: Floats = field(default_factory=lambda: np.zeros((0, 3)))
+    obstacles: tuple[Cylinder, ...] = ()
+    obstacle_poses: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
 
 def build_scene(world: World, seed: int | np.random.SeedSequence) -> Scene:
@@ -72,8 +72,8 @@ def build_scene(world: World, seed: int | np.random.SeedSequence) -> Scene:
         floor_grey=world.room.floor_grey,
         above_grey=world.room.above_grey,
         body=_body(world.body),
-        posts=tuple(_post(obstacle, world, rng) for obstacle in world.obstacles),
-        post_poses=np.array([[o.x_cm, o.y_cm, 0.0] for o in world.obstacles]).reshape(-1, 3),
+        obstacles=tuple(_obstacle(obstacle, world, rng) for obstacle in world.obstacles),
+        obstacle_poses=np.array([[o.x_cm, o.y_cm, 0.0] for o in world.obstacles]).reshape(-1, 3),
     )
 
 
@@ -88,9 +88,11 @@ def _body(body: BodyParams) -> Cylinder:
     )
 
 
-def _post(obstacle: Obstacle, world: World, rng: np.random.Generator) -> Cylinder:
-    size = {"radius_cm": obstacle.radius_cm, "height_cm": obstacle.height_cm}
-    if obstacle.pattern == "plain":
-        return Cylinder(bands_grey=np.array([obstacle.grey]), **size)
-    around = stripes(world.wall, 2 * math.pi * obstacle.radius_cm, rng)
-    return Cylinder(bands_grey=np.zeros(1), around_grey=around, **size)
+def _obstacle(obstacle: Obstacle, world: World, rng: np.random.Generator) -> Cylinder:
+    plain = obstacle.pattern == "plain"
+    return Cylinder(
+        radius_cm=obstacle.radius_cm,
+        height_cm=obstacle.height_cm,
+        bands_grey=np.array([obstacle.grey if plain else 0.0]),
+        around_grey=_nothing() if plain else stripes(world.wall, 2 * math.pi * obstacle.radius_cm, rng),
+    )

@@ -47,7 +47,7 @@ def stripes(wall: WallParams, length_cm: float, rng: np.random.Generator) -> Flo
     greys = np.where(np.arange(count) % 2 == int(rng.integers(2)), wall.dark_grey, wall.light_grey)
     sums = np.concatenate([[0.0], np.cumsum(greys * np.diff(edges))])
     samples = np.linspace(0.0, length_cm, math.ceil(length_cm / SAMPLE_CM) + 1)
-    return np.diff(np.interp(samples, edges, sums)) / np.diff(samples)
+    return np.asarray(np.diff(np.interp(samples, edges, sums)) / np.diff(samples))
 
 
 def strip_from_file(path: str | Path) -> Floats:
@@ -71,4 +71,4 @@ def strip_from_file(path: str | Path) -> Floats:
     luma = Luma(data)
     plane = luma.plane(data)
     row = plane[plane.shape[0] // 2].astype(np.float64)
-    return np.clip(row * luma.gain + luma.offset, 0.0, 255.0)
+    return np.asarray(np.clip(row * luma.gain + luma.offset, 0.0, 255.0))
