@@ -1,7 +1,10 @@
 """A whole run from one call; whatever ends it, nothing is lost, and taken up again it comes to the same."""
 
 import os
+import pickle
 import signal
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -73,6 +76,10 @@ def assert_same(first: Run, second: Run) -> None:
     np.testing.assert_array_equal(first.record.alarms, second.record.alarms)
 
 
+def go_for(seed: int) -> Run:
+    return go(seed=seed)
+
+
 class TestWhole:
     def test_it_tells_what_it_was_and_what_happened(self, whole: Run) -> None:
         assert whole.finished
@@ -90,6 +97,14 @@ class TestWhole:
 
     def test_the_same_seed_is_the_same_run(self, whole: Run) -> None:
         assert_same(go(), whole)
+
+    def test_other_processes_come_to_the_same(self, whole: Run) -> None:
+        with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+            for result in pool.map(go_for, [2, 5, 2]):
+                if result.seed == 2:
+                    assert_same(result, whole)
+                else:
+                    assert result.score != whole.score
 
     def test_the_number_of_robots_may_be_given_beside_the_world(self) -> None:
         assert run(SMALL, NeverTurn(), minutes=0.01, robots=2).world.robots.count == 2
@@ -138,6 +153,7 @@ class TestFailures:
             go(progress=stop, checkpoint=path)
         assert caught.value.number == number
         assert isinstance(caught.value, KeyboardInterrupt)
+        assert pickle.loads(pickle.dumps(caught.value)).run.minutes == caught.value.run.minutes
         assert caught.value.run.minutes == pytest.approx(7 / 60)
         assert signal.getsignal(number) in (signal.default_int_handler, signal.SIG_DFL)  # as it was before
         for kept in (caught.value.run.snapshot, path, str(path)):

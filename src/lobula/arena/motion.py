@@ -120,6 +120,7 @@ class Motion:
         self._stale = True
         self.codes = np.array(self.phases, np.int8)
         self.turning: NDArray[np.bool_] = self.codes != FORWARD
+        self.turning.flags.writeable = False  # controllers see it
 
     def _plan(self) -> None:
         robots, half_cm = len(self.phases), self._wheels.track_cm / 2

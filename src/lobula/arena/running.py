@@ -73,6 +73,9 @@ class RunInterrupted(KeyboardInterrupt):
         super().__init__(f"interrupted after {run.minutes:.2f} simulated minutes")
         self.run, self.number = run, number
 
+    def __reduce__(self) -> tuple[type[RunInterrupted], tuple[Run, int]]:
+        return type(self), (self.run, self.number)  # so that it travels between processes
+
 
 def run(
     world: World | None = None,

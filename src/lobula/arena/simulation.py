@@ -20,6 +20,7 @@ from ..errors import ParameterError
 from .chance import Chance
 from .contact import Contact, Episodes, Surroundings
 from .controller import Bools, Controller, ControllerError, KeepsState, decide, keeps_state
+from .exposure import Exposure
 from .eye import Eye
 from .history import History, Past
 from .motion import FORWARD, Motion
@@ -29,9 +30,6 @@ from .world import World, world_hash
 
 SAVE_EVERY_S = 0.25
 """The controllers' states are saved this often, so that the last second can be judged again from one of them."""
-
-AUTO_GAIN = (0.125, 8.0)
-"""Range of a camera's automatic gain."""
 
 ROBOT_DTYPE = np.dtype(
     [("x_cm", np.float64), ("y_cm", np.float64), ("heading_rad", np.float64), ("speed_cm_s", np.float64),
@@ -108,9 +106,7 @@ class Simulation:
         self.history = History(math.ceil(world.scoring.back_s * world.camera.rate_hz) + self._save_ticks + 2, count)
         self._keeper = controller if keeps_state(controller) else None
         self.tick_count = 0
-        self._same_light = world.light.course == "steady" and not world.camera.auto_gain
-        self._gains = np.ones(count)  # of the cameras
-        self._light = np.ones(count)  # gain of the light and of the camera in the last picture
+        self._exposure = Exposure(world, count)
         self.images: NDArray[np.uint8] | None = None
         self.seconds = {"eye": 0.0, "network": 0.0, "physics": 0.0}
         try:
@@ -158,20 +154,17 @@ class Simulation:
     def see(self) -> NDArray[np.uint8]:
         """Return what the robots see now (R, H, W), without going on."""
         self._save_states()
-        if not self._same_light:
-            self._light = self._gains * self.world.light.gain(np.full(len(self.pose), self.time_s))
-        self.images = self.eye.views(
-            self.pose, self.pose, own=self._own, keys=self.chance.keys(self.tick_count), light=self._light
-        )
+        keys, light = self.chance.keys(self.tick_count), self._exposure.at(self.time_s)
+        self.images = self.eye.views(self.pose, self.pose, own=self._own, keys=keys, light=light)
         return self.images
 
     def move(self, avoiding: Bools) -> tuple[Contact, ...]:
         """Go through one tick in which the robots ``avoiding`` (R,) begin to stop and turn; return the new contacts."""
         motion, around = self.motion, self._around
         potentials = getattr(self.controller, "potentials", None)
-        self.history.add(self.tick_count, self.pose, motion.codes, self._light, potentials)
-        if self.world.camera.auto_gain and self.images is not None:
-            self._follow_light(self.images)
+        self.history.add(self.tick_count, self.pose, motion.codes, self._exposure.now, potentials)
+        if self.images is not None:
+            self._exposure.follow(self.images)
         if avoiding.any():
             motion.avoid(np.flatnonzero(avoiding).tolist())
         chords = motion.chords()
@@ -233,7 +226,7 @@ class Simulation:
             "motion": copy.deepcopy(self.motion.state()),
             "episodes": self.episodes.state(),
             "history": self.history.state(),
-            "gains": self._gains.copy(),
+            "gains": self._exposure.gains.copy(),
             "controller": [copy.deepcopy(keeper.state(robot)) for robot in range(len(self.pose))],
         }
 
@@ -253,7 +246,7 @@ class Simulation:
         self.motion.set_state(snapshot["motion"])
         self.episodes.set_state(snapshot["episodes"])
         self.history.set_state(snapshot["history"])
-        self._gains = np.array(snapshot["gains"])
+        self._exposure.gains = np.array(snapshot["gains"])
         for robot, state in enumerate(snapshot["controller"]):
             keeper.set_state(robot, state)
         self._take_poses()
@@ -263,15 +256,6 @@ class Simulation:
         tick = self.tick_count
         if self._keeper and tick % self._save_ticks == 0 and not self.history.has_saved(tick):
             self.history.save(tick, [self._keeper.state(robot) for robot in range(len(self.pose))])
-
-    def _follow_light(self, images: NDArray[np.uint8]) -> None:
-        """Let each camera's gain go towards pictures of mean ``auto_gain_grey``, as a first-order filter."""
-        camera = self.world.camera
-        means = np.maximum(images.mean(axis=(1, 2)), 1.0)
-        self._gains = self._gains * (camera.auto_gain_grey / means) ** (
-            self.world.tick_s / (self.world.tick_s + camera.auto_gain_ms / 1000)
-        )
-        self._gains = self._gains.clip(*AUTO_GAIN)
 
     def _arrive(self) -> None:
         """End the tick."""
