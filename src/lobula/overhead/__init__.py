@@ -5,13 +5,14 @@ Needs the extra ``opencv``.
 
 from __future__ import annotations
 
+from .calibration import read_points
 from .camera import TopCameraParams
 from .markers import MarkerParams
 from .reference import Reference
 from .room import Room, parse_room
 from .sightings import TrackParams
 from .top_view import TopView
-from .track import track
+from .track import frame_count, track
 from .tracks import POSE_DTYPE, TRACK_DTYPE, Tracks, read_tracks, tracks_csv
 
 __all__ = [
@@ -24,7 +25,9 @@ __all__ = [
     "TopView",
     "TrackParams",
     "Tracks",
+    "frame_count",
     "parse_room",
+    "read_points",
     "read_tracks",
     "track",
     "tracks_csv",

@@ -69,6 +69,7 @@ class Sightings:
         """
         if wanted is not None:
             self._keep(np.isin(self.rows["id"], wanted), "id not asked for")
+        words = self._without_rare(params.least_share) if wanted is None else []
         if len(self.rows):
             self._require_fit(room, params)
             self._keep(np.abs(self._scale / np.median(self._scale) - 1) <= params.size_tolerance, "wrong size")
@@ -80,13 +81,15 @@ class Sightings:
             mine = np.flatnonzero(self.rows["id"] == one)
             believed[mine] = plausible(self.rows[mine], params.fastest_cm_s)
         self._keep(believed, "jump")
+        missing = np.setdiff1d(wanted or (), self.rows["id"])
+        return [*words, *([f"ids never seen: {_list(missing)}"] if len(missing) else [])]
+
+    def _without_rare(self, least_share: float) -> list[str]:
+        """Leave out ids that are hardly ever seen: noise is read as a pattern now and then."""
         ids, counts = np.unique(self.rows["id"], return_counts=True)
-        if wanted is None:
-            rare = ids[counts < params.least_share * self._frames]
-            self._keep(~np.isin(self.rows["id"], rare), "rare id")
-            return [f"ids seen in too few frames to be robots: {_list(rare)}"] if len(rare) else []
-        missing = np.setdiff1d(wanted, ids)
-        return [f"ids never seen: {_list(missing)}"] if len(missing) else []
+        rare = ids[counts < least_share * self._frames]
+        self._keep(~np.isin(self.rows["id"], rare), "rare id")
+        return [f"ids seen in too few frames to be robots: {_list(rare)}"] if len(rare) else []
 
     def _beyond_cm(self, room: Room) -> NDArray[np.float64]:
         return room.outside_cm(self.rows["x_cm"], self.rows["y_cm"])
@@ -110,7 +113,8 @@ class Sightings:
         size = float(np.median(self._scale))
         if abs(size - 1) > _SIZE_OFF:
             raise ParameterError(
-                f"the ID patterns come out {size * self._side_cm:.2f} cm wide: must be {self._side_cm:.2f}: {check}"
+                f"the ID patterns ({len(self.rows)} sightings) come out {size * self._side_cm:.2f} cm wide: must be "
+                f"{self._side_cm:.2f}: {check}"
             )
         if float(np.median(self._misfit)) > params.shape_tolerance:
             raise ParameterError(f"the ID patterns do not come out square: {check}")

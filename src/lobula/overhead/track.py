@@ -71,7 +71,7 @@ def track(
     notes += sightings.sift(room, params, wanted)
     rows = sightings.rows
     if not len(rows):
-        why = ", ".join(f"{count} {reason}" for reason, count in sightings.left_out.items())
+        why = ", ".join(f"{reason}: {count}" for reason, count in sightings.left_out.items())
         raise FrameSourceError(f"{name}: no robot's ID pattern {frames_seen}: {why or 'only corner markers were seen'}")
     robot_ids = np.unique(rows["id"])
     table = np.concatenate(
@@ -108,13 +108,33 @@ class _Watched(NamedTuple):
     shown: int
 
 
+def frame_count(source: Any, **opening: Any) -> int | None:
+    """Return about how many frames ``track`` will read from ``source``, None if nobody knows.
+
+    Raises
+    ------
+    FrameSourceError : it cannot be opened
+    ParameterError : it is not recorded
+    """
+    with _at_first(source, opening) as frames:
+        return frames.frame_count
+
+
+def _at_first(source: Any, opening: dict[str, Any]) -> FrameSource:
+    allowed = "must be a recording: a video, a folder or a pattern"
+    text = str(source) if isinstance(source, str | int | PathLike) else ""
+    if text == "-" or text.isdecimal() or text.startswith("/dev/"):
+        raise ParameterError(f"source {text}: {allowed}")
+    frames = open_frames(source, **opening)
+    if frames.live:
+        frames.close()
+        raise ParameterError(f"source {text}: {allowed}")
+    return frames
+
+
 def _opened(source: Any, opening: dict[str, Any]) -> FrameSource:
     """Open ``source`` at its own size, which has to be asked for first."""
-    if isinstance(source, int) or (isinstance(source, str) and (source == "-" or source.isdecimal())):
-        raise ParameterError(f"source {source!r}: must be a recording: a video, a folder or a pattern")
-    with open_frames(source, **opening) as first:
-        if first.live:
-            raise ParameterError(f"source {source!r}: must be a recording: a video, a folder or a pattern")
+    with _at_first(source, opening) as first:
         size = first.source_width, first.source_height
     return open_frames(source, size=size, **opening)
 
