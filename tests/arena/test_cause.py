@@ -36,10 +36,9 @@ class ListingEye:
     def __init__(self):
         self.calls = []
 
-    def views(self, cameras, bodies, *, own, keys, light, shown, walls, obstacles=None):
+    def views(self, cameras, bodies, *, own, keys, light, shown, obstacles, walls):
         self.calls.append({"cameras": cameras, "bodies": bodies, "own": own, "keys": keys, "light": light})
-        there = [shown, walls[:, None]] if obstacles is None else [shown, obstacles, walls[:, None]]
-        return np.concatenate(there, axis=1).astype(np.uint8)[:, None]
+        return np.concatenate([shown, obstacles, walls[:, None]], axis=1).astype(np.uint8)[:, None]
 
 
 class Alarmed:

@@ -9,21 +9,22 @@ import pytest
 
 import lobula
 from lobula.arena.cause import Replay
-from lobula.arena.contact import WALL
+from lobula.arena.contact import WALL, obstacle_code
 from lobula.arena.controls import AlwaysTurn, NeverTurn
 from lobula.arena.events import NOTHING
 from lobula.arena.network_controller import NetworkController
 from lobula.arena.scorer import Scorer
 from lobula.arena.simulation import Simulation
-from lobula.arena.world import RobotParams, World
+from lobula.arena.world import Obstacle, RobotParams, World
 from lobula.engine.library import available
 
 needs_core = pytest.mark.skipif(not available(), reason="minutes on the NumPy reference")
 
 
-def run(controller, poses, *, seconds, speed=8.0, seed=1):
+def run(controller, poses, *, seconds, speed=8.0, seed=1, obstacles=()):
     """A scored run of robots that start at (x, y, heading in deg), all at the same speed."""
-    world = World(robots=RobotParams(count=len(poses), speed_low_cm_s=speed, speed_high_cm_s=speed))
+    robots = RobotParams(count=len(poses), speed_low_cm_s=speed, speed_high_cm_s=speed)
+    world = World(robots=robots, obstacles=obstacles)
     start = np.array([(x, y, math.radians(deg)) for x, y, deg in poses])
     scorer = Scorer(Simulation(world, controller, seed, poses=start))
     for _ in range(round(seconds * world.camera.rate_hz)):
@@ -54,6 +55,16 @@ def test_one_robot_drives_at_a_wall(heading_deg, y):
     assert 0 < event["distance_cm"] < 20
     assert math.isnan(event["miss_cm"])
     assert event["lgmd2"] > 0.7  # it spiked
+
+
+@needs_core
+def test_one_robot_drives_at_an_obstacle():
+    obstacles = (Obstacle(x_cm=20, y_cm=45), Obstacle(x_cm=40, y_cm=27))
+    (event,) = run(network(), [(16, 27, 0)], seconds=2.6, obstacles=obstacles).events
+    assert (event["kind"], event["geometric"], event["rule"]) == ("AP", "AP", "alone")
+    assert event["other"] == event["geometric_other"] == obstacle_code(1)
+    assert event["incidence_deg"] == pytest.approx(0, abs=1e-6)
+    assert event["seen"]
 
 
 @needs_core
@@ -126,6 +137,26 @@ def test_an_object_that_vanishes_is_forgotten_before_the_alarm_is_looked_at(pres
 
 
 @needs_core
+@pytest.mark.parametrize("preset", ["published", "paper"])
+@pytest.mark.parametrize("heading", [0.0, 0.5, 1.0])
+def test_a_plain_wall_raises_no_alarm(preset, heading):
+    # what the counterfactual rests on: once it is painted plain, the wall is gone for the network
+    world, start = World(robots=RobotParams(count=1)), np.array([(68 - 22 * math.cos(heading), 10, heading)])
+    times_s = np.arange(80) / 30
+    poses = np.repeat(start[None], 80, axis=0)
+    poses[:, 0, :2] += 8 * times_s[:, None] * np.array([math.cos(heading), math.sin(heading)])
+    eye = Simulation(world, NeverTurn(), 1, poses=start).eye
+    plain, striped = (
+        lobula.Network(lobula.preset(preset, neurons="lgmds")).run(
+            eye.views(poses[:, 0], poses, own=np.zeros(80), keys=np.arange(80), walls=np.full(80, walls)), times_s
+        )
+        for walls in (False, True)
+    )
+    assert striped["collision"].any()
+    assert not plain["collision"].any()
+
+
+@needs_core
 def test_who_always_turns_turns_because_of_nothing():
     scorer = run(AlwaysTurn(), [(60, 27, 0)], seconds=4)
     assert (scorer.events["kind"] == "spurious").all()
@@ -159,6 +190,13 @@ def test_a_wall_met_head_on_is_a_contact_that_was_seen():
 def test_a_wall_met_obliquely_keeps_its_angle():
     (event,) = run(NeverTurn(), [(63, 20, 60)], seconds=1.5).events
     assert event["incidence_deg"] == pytest.approx(60)
+
+
+@needs_core
+def test_an_obstacle_that_is_met_counts_as_periphery():
+    (event,) = run(NeverTurn(), [(25, 28, 0)], seconds=1.5, obstacles=(Obstacle(x_cm=40, y_cm=27, radius_cm=3),)).events
+    assert (event["kind"], event["other"], event["seen"]) == ("CP", obstacle_code(0), True)
+    assert event["incidence_deg"] == pytest.approx(math.degrees(math.asin(1 / 5)))
 
 
 @needs_core

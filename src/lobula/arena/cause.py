@@ -1,7 +1,9 @@
 """Why a robot turned: what the alarm needed, found by rendering the last second again without it.
 
 An object is the cause of an alarm if the alarm is not raised without it. So the pictures since a saved state of the
-controller are drawn again with one object left out, and the controller is asked again.
+controller are drawn again with one object left out, and the controller is asked again. The wall cannot be left out of
+a room: it is painted plain, its mean grey. Its lower and upper edges stay, and grow as the robot comes nearer; to the
+network they are nothing, so long as the wall is lighter than the floor.
 
 An object that vanishes at the first of these pictures is a sudden change, which a controller may well answer. That
 answer is over before it is looked at: the state is at least ``scoring.back_s`` old, one second, and the network's
@@ -99,7 +101,7 @@ class Replay:
             light=self._light,
             shown=shown,
             walls=np.full(frames, WALL not in without),
-            **({"obstacles": obstacles} if self._obstacles else {}),
+            obstacles=obstacles,
         )
         alarm_s = self._times_s[-1 - TOLERANCE_TICKS]
         where = f"controller {type(self._controller).__name__}, replay of the alarm at {alarm_s:.3f} s"
