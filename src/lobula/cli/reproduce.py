@@ -1,0 +1,96 @@
+"""``lobula reproduce``: the paper's figures made again, claim by claim."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import OutputError, ParameterError
+from . import options as o
+from .call import new_app
+
+if TYPE_CHECKING:
+    from ..experiments.paper.figure import Plan
+
+app = new_app()
+
+ALL = "all"
+
+
+@app.command()
+def reproduce(
+    what: Annotated[str, typer.Argument(metavar="WHAT", help="fig4, fig5, fig6 or all")],
+    out: Annotated[Path, typer.Option(metavar="DIR", help="folder for the figures, tables and pages")],
+    seeds: Annotated[int | None, typer.Option(metavar="N", help="repeats of every course; 10 if left out")] = None,
+    quick: Annotated[bool, typer.Option("--quick", help="a look: 2 repeats if --seeds does not say otherwise")] = False,
+    preset: Annotated[str | None, typer.Option(metavar="NAME", help="paper or published; both if left out")] = None,
+    json: o.Json = False,
+) -> None:
+    """Run an experiment of the paper: its figure, every trial as CSV, and a page that says which claims hold."""
+    from ..experiments.paper.reproduction import FIGURES, reproduce
+    from ..report.axes import new_figure
+    from .print_json import print_json
+    from .progress import say, screen
+
+    if what not in (*FIGURES, ALL):
+        from ..params import nearest
+
+        raise ParameterError(f"reproduce {what}{nearest(what, [*FIGURES, ALL])}")
+    plan = _plan(seeds, quick, preset)
+    new_figure(1, 1)  # says now, not after minutes, that matplotlib is missing
+    _make_folder(out)
+    chosen = list(FIGURES.values()) if what == ALL else [FIGURES[what]]
+    films = sum(1 for figure in chosen for _ in figure.shots(plan))
+    with screen(films, "films") as here:
+        found = [reproduce(figure, plan, out, here.advance) for figure in chosen]
+    if json:
+        print_json({"folder": str(out), "figures": found})
+    else:
+        print("\n\n".join(map(_text, found)))
+        say(f"\n{out / 'paper.md'}: every claim, and why it does not hold where it does not")
+
+
+def _plan(count: int | None, quick: bool, preset: str | None) -> Plan:
+    from ..experiments.paper.figure import Plan
+    from ..experiments.paper.reproduction import QUICK_SEEDS, QUICK_SIDE_SEEDS, SEEDS, SIDE_SEEDS, seeds
+    from ..model.presets import BASES
+    from ..model.presets import preset as named_preset
+
+    names = ("paper", "published")
+    if preset is not None and preset not in BASES:
+        raise ParameterError(f"--preset {preset}: must be one of {', '.join(names)}")
+    return Plan(
+        presets={name: named_preset(name) for name in (names if preset is None else (preset,))},
+        seeds=seeds(count if count is not None else QUICK_SEEDS if quick else SEEDS),
+        side_seeds=QUICK_SIDE_SEEDS if quick else SIDE_SEEDS,
+    )
+
+
+def _make_folder(folder: Path) -> None:
+    """Make the folder and see, before the work, that files can be written into it."""
+    from ..report.landing import writing
+    from .destinations import check_folder
+
+    check_folder("--out", folder)
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(f"cannot write {folder}: no permission")
+
+
+def _text(found: dict[str, Any]) -> str:
+    from .table import table
+
+    presets = list(found["presets"])
+    rows = [
+        (claim["number"], *(_cell(claim["verdicts"][name]) for name in presets), claim["paper"])
+        for claim in found["claims"]
+    ]
+    return f"{found['figure']}: {found['title']}\n" + table(("claim", *presets, "the paper says"), rows)
+
+
+def _cell(verdict: dict[str, Any]) -> str:
+    return f"{verdict['status']}, {verdict['held']}/{verdict['trials']}"

@@ -1,0 +1,161 @@
+"""What a run found, as a document for programs and as pages for people."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from ..._version import __version__
+from ...params import settings_hash
+from .claims import HELD_SHARE, PART_SHARE, Verdict
+from .counts import share_text
+from .figure import PaperFigure, Plan
+from .trials import Trial
+
+Document = Mapping[str, Any]
+"""The verdicts of one figure or table: what ``FIGURE.json`` holds and what ``paper.md`` is made of."""
+
+RULE = (
+    f"A claim *holds* if under every condition at least {100 * HELD_SHARE:.0f} % of the trials show it; it *does not "
+    f"hold* if fewer than {100 * PART_SHARE:.0f} % of all its trials do; otherwise it holds *in part*. Intervals are "
+    "of 95 %: Wilson for shares, bootstrap over seeds for means. Those of pooled shares are somewhat too narrow, "
+    "because all trials of a seed have the same wall."
+)
+
+
+def document(figure: PaperFigure, plan: Plan, verdicts: Sequence[Verdict], scene_hash: str) -> dict[str, Any]:
+    """Return the verdicts as plain dictionaries, lists and numbers."""
+    claims: dict[str, dict[str, Any]] = {}
+    for v in verdicts:
+        claim = claims.setdefault(
+            v.number, {"number": v.number, "paper": v.paper, "rule": v.rule, "verdicts": {}}
+        )  # fmt: skip
+        claim["verdicts"][v.preset] = {
+            "status": v.status,
+            "ours": share_text(v.held, v.trials),
+            "held": v.held,
+            "trials": v.trials,
+            "interval": [round(end, 6) for end in v.interval],
+            "reason": v.reason if v.status != "holds" else "",
+            "conditions": [f._asdict() for f in v.findings],
+        }
+    return {
+        "version": __version__,
+        "figure": figure.name,
+        "title": figure.title,
+        "command": f"lobula reproduce {figure.name}",
+        "presets": {name: settings_hash(params) for name, params in plan.presets.items()},
+        "scene_hash": scene_hash,
+        "seeds": list(plan.seeds),
+        "claims": list(claims.values()),
+    }
+
+
+def figure_page(
+    figure: PaperFigure, plan: Plan, trials: Sequence[Trial], found: Document, pictures: Mapping[str, str]
+) -> Iterator[str]:
+    """Yield the lines of ``FIGURE.md``. ``pictures`` names the drawing of each preset."""
+    yield f"# {_numbered(figure.name)}: {figure.title}"
+    yield ""
+    yield f"Made by `{found['command']}`, lobula {found['version']}, seeds {_range(found['seeds'])}, arena and courses"
+    yield f"`{found['scene_hash']}`, " + ", ".join(f"preset `{n}` `{h}`" for n, h in found["presets"].items()) + "."
+    yield f"Every trial is in [{figure.name}.csv]({figure.name}.csv). Robots, wall and camera are rendered."
+    for preset, picture in pictures.items():
+        yield ""
+        yield f"![{figure.title}, preset {preset}]({picture})"
+    yield ""
+    yield from figure.words(plan, trials)
+    yield ""
+    yield "## Claims"
+    yield ""
+    yield RULE
+    yield ""
+    yield from claims_table(found)
+    for claim in found["claims"]:
+        yield from _claim(claim)
+
+
+def claims_table(found: Document) -> Iterator[str]:
+    """Yield a table in Markdown: each claim of the paper, and its status and share for each preset."""
+    presets = list(found["presets"])
+    yield f"| claim | the paper says | {' | '.join(f'preset `{name}`' for name in presets)} |"
+    yield f"|---|---|{'---|' * len(presets)}"
+    for claim in found["claims"]:
+        cells = [_cell(claim["verdicts"].get(name)) for name in presets]
+        yield f"| {claim['number']} | {claim['paper']} | {' | '.join(cells)} |"
+
+
+def _cell(found: Mapping[str, Any] | None) -> str:
+    return "" if found is None else f"**{found['status']}**: {found['ours']}"
+
+
+def _claim(claim: Mapping[str, Any]) -> Iterator[str]:
+    yield ""
+    yield f"### {claim['number']}"
+    yield ""
+    yield f"The paper: {claim['paper']} Seen in a trial if {claim['rule']}."
+    for preset, of in claim["verdicts"].items():
+        yield ""
+        reason = f" {of['reason']}" if of["reason"] else ""
+        yield f"`{preset}`: **{of['status']}**, in {of['ours']}.{reason}"
+        yield ""
+        yield "| condition | trials | mean of ours (95 %) |"
+        yield "|---|--:|---|"
+        for one in of["conditions"]:
+            yield f"| {one['condition']} | {one['held']}/{one['trials']} | {one['numbers']} |"
+
+
+def gathered_page(documents: Sequence[Document], images: str = "") -> Iterator[str]:
+    """Yield the lines of ``paper.md``: every claim, claim by claim, with what makes it and how it fares.
+
+    ``images`` is the folder of the pages and pictures as seen from the page, with its slash; empty: beside it.
+    """
+    yield "# The paper, claim by claim"
+    yield ""
+    yield RULE
+    yield ""
+    yield "| figure | command | claims that hold |"
+    yield "|---|---|---|"
+    for found in documents:
+        yield f"| {_numbered(found['figure'])}: {found['title']} | `{found['command']}` | {_tally(found)} |"
+    for found in documents:
+        yield ""
+        yield f"## {_numbered(found['figure'])}"
+        yield ""
+        yield f"![{found['title']}]({images}{found['figure']}.png)"
+        yield ""
+        yield f"Seeds {_range(found['seeds'])}; " + ", ".join(f"`{n}` `{h}`" for n, h in found["presets"].items()) + "."
+        yield ""
+        yield from claims_table(found)
+        reasons = [
+            f"- {claim['number']}, `{preset}`: {of['reason']}"
+            for claim in found["claims"]
+            for preset, of in claim["verdicts"].items()
+            if of["reason"]
+        ]
+        if reasons:
+            yield ""
+            yield "What is missing, and why:"
+            yield ""
+            yield from reasons
+
+
+def _tally(found: Document) -> str:
+    parts = []
+    for preset in found["presets"]:
+        statuses = [claim["verdicts"][preset]["status"] for claim in found["claims"] if preset in claim["verdicts"]]
+        parts.append(
+            f"`{preset}`: {statuses.count('holds')} of {len(statuses)}, {statuses.count('holds in part')} in part"
+        )
+    return "; ".join(parts)
+
+
+def _numbered(name: str) -> str:
+    for kind, word in (("fig", "Fig. "), ("table", "Table ")):
+        if name.startswith(kind):
+            return word + name.removeprefix(kind)
+    return name
+
+
+def _range(seeds: Sequence[int]) -> str:
+    return f"{seeds[0]}" if len(seeds) == 1 else f"{seeds[0]} to {seeds[-1]}"
