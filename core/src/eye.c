@@ -54,7 +54,7 @@ static eye_memory memory_at(void *base, const lobula_eye_scene *scene, const lob
     m.scratch.column = (void *)take(base, &m.size, (size_t)c->height * sizeof(float));
     m.columns = (void *)take(base, &m.size, pixels * sizeof(float));
     m.spare = (void *)take(base, &m.size, c->blur_px > 0 ? pixels * sizeof(float) : 0);
-    m.bytes = (void *)take(base, &m.size, pixels + EYE_SLACK);
+    m.bytes = (void *)take(base, &m.size, pixels);
     return m;
 }
 

@@ -20,10 +20,8 @@ typedef struct {
 } eye_noise;
 
 typedef struct {
-    /* `columns` (width, height) to `rows` (height, width); `bytes` holds width * height + EYE_SLACK */
+    /* `columns` (width, height) to `rows` (height, width); `bytes` holds width * height */
     void (*sense)(const float *columns, int width, int height, eye_noise noise, uint8_t *bytes, uint8_t *rows);
 } eye_kernels;
-
-enum { EYE_SLACK = 64 };
 
 #endif
