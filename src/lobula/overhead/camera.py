@@ -75,8 +75,9 @@ class TopCamera:
         """Return the (..., 2) points in cm, ``z_cm`` above the floor, that are seen at pixels (..., 2)."""
         m = self._matrix
         back = np.linalg.inv(np.column_stack([m[:, 0], m[:, 1], z_cm * m[:, 2] + m[:, 3]]))
-        a = self._straight(np.asarray(px) - self._centre) @ back[:, :2].T + back[:, 2]
-        return np.asarray(a[..., :2] / a[..., 2:])
+        u, v = np.moveaxis(self._straight(np.asarray(px) - self._centre), -1, 0)
+        x, y, w = (row[0] * u + row[1] * v + row[2] for row in back)  # faster than a product for many points
+        return np.stack([x / w, y / w], axis=-1)
 
     def _bent(self, offset: Points) -> Points:
         r2 = np.sum(offset**2, axis=-1, keepdims=True) / self._half_diagonal**2

@@ -6,6 +6,7 @@ where they should to a small fraction of a pixel, in perspective and through a l
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -78,7 +79,8 @@ class TopView:
         fine, parts = self._ground.copy(), []
         marker = self._marker
         cylinders = [(x, y, radius, self._wall_cm, _OBSTACLE) for x, y, radius in self._obstacles]
-        cylinders += [(x, y, marker.disc_cm / 2, marker.height_cm, _BODY) for x, y in poses[:, :2]]
+        if math.isfinite(self._params.height_cm):  # from infinitely far away the discs hide the robots' sides
+            cylinders += [(x, y, marker.disc_cm / 2, marker.height_cm, _BODY) for x, y in poses[:, :2]]
         foot_x, foot_y = self.camera.foot_cm
         for one in sorted(cylinders, key=lambda c: -np.hypot(c[0] - foot_x, c[1] - foot_y)):  # far ones are covered
             parts.append(self._paint_cylinder(fine, *one))
@@ -106,8 +108,8 @@ class TopView:
 
     def _mean(self, fine: NDArray[np.float32]) -> NDArray[np.float32]:
         n = self._samples
-        height, width = fine.shape[0] // n, fine.shape[1] // n
-        return np.asarray(fine.reshape(height, n, width, n).mean(axis=(1, 3), dtype=np.float32))
+        parts = [fine[row::n, column::n] for row in range(n) for column in range(n)]
+        return np.asarray(sum(parts[1:], parts[0]) / np.float32(n * n))
 
     def _samples_of(self, part: _Part) -> Points:
         """(h, w, 2) sample points of the pixels ``part``, px."""
