@@ -101,9 +101,10 @@ void plan_step(lobula_state *s, planned_step *step, double mean_change) {
     p->fdsr_share = (float)(1.0 - low_pass_share(clock_ms, q->lamina.fdsr.rise_ms));
     p->dead_zone = (float)q->lamina.dog.dead_zone_grey;
     p->spans = (int)emd->spans;
+    double uncounted = pow(step->ticks, q->clock.change_exponent); /* once of the change's square: model/medulla/emd.py */
     for (int i = 0; i < p->spans; i++) {
         p->span[i] = stretched((int)emd->spans_px[i], step->ticks);
-        p->span_share[i] = (float)(1.0 - low_pass_share(clock_ms, emd->delays_ms[i]));
+        p->span_share[i] = (float)((1.0 - low_pass_share(clock_ms, emd->delays_ms[i])) * uncounted);
     }
     p->sets = 0;
     plan_lgmd(s, p, 0, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, clock_ms));

@@ -7,6 +7,7 @@ import pytest
 
 from lobula.model.network import TAPS, ReferenceNetwork
 from lobula.model.presets import preset
+from lobula.stimuli import translating
 
 from .movies import approach, collisions, growing, noisy, run, stamps, states
 
@@ -186,3 +187,16 @@ def test_one_dropped_frame_moves_an_alarm_by_67_ms_at_most(name):
     for lost in range(12, len(movie) - 1, 3):
         images, times = np.delete(movie.images, lost, axis=0), np.delete(movie.times_s, lost)
         assert times[collisions(run(preset(name), images, times))[0]] == pytest.approx(first, abs=0.067)
+
+
+@pytest.mark.parametrize(("speed_cm_s", "scene"), [(8.0, "arena"), (12.0, "arena"), (20.0, "plain"), (30.0, "plain")])
+def test_passing_objects_drive_the_lptc_alike_at_15_hz(speed_cm_s, scene):
+    """From 2 to 8 px a frame, and twice that at 15 Hz: the typical net motion is the same within a factor of two."""
+    drive = []
+    for rate_hz in (15.0, 30.0):
+        movie = translating(speed_cm_s=speed_cm_s, distance_cm=6.0, span_cm=10.0, scene=scene, rate_hz=rate_hz,
+                            lead_s=0.2, hold_s=0.0)  # fmt: skip
+        readings = run(preset("paper"), movie.images, movie.times_s)
+        hs = np.array([2 * np.arctanh(r.lptc_r) for r in readings])  # |HS| / (n K_hs), from the sigmoid
+        drive.append(np.median(hs[hs > 0.2 * hs.max()]))
+    assert 0.5 < drive[0] / drive[1] < 2.0

@@ -95,7 +95,8 @@ class Oracle:
         motions = [
             correlate(x, b, spans(ticks), [40.0, 30.0, 20.0, 10.0]) for x, b in zip(adapted, self.adapted, strict=True)
         ]
-        self.maps["motion"] = [[a + b for a, b in zip(*lines, strict=True)] for lines in zip(*motions, strict=True)]
+        self.maps["motion"] = [[(a + b) * ticks**0.75 for a, b in zip(*lines, strict=True)]
+                               for lines in zip(*motions, strict=True)]  # fmt: skip
         right, left = potentials(sum(map(sum, self.maps["motion"])), pixels, wiring.k_hs)
         self.luma, self.step_s, self.mean_change = picture, time_s, mean_change
         self.change, self.lamina, self.adapted = change, lamina, adapted

@@ -112,7 +112,8 @@ class ReferenceNetwork:
     ) -> Reading:  # fmt: skip
         ticks = dt_ms / self.p.clock.period_ms
         residual = self.p.lamina.on_off.residual**ticks
-        p = frame_difference(image, self.luma, ticks**-self.p.clock.change_exponent, light or SAME_LIGHT)
+        change_scale = ticks**-self.p.clock.change_exponent
+        p = frame_difference(image, self.luma, change_scale, light or SAME_LIGHT)
         mean_change = float(np.abs(p).sum(dtype=np.float64)) / p.size
         lamina = self.lamina.step(p, residual, self.p.clock.period_ms)
         change = OnOff(*split_on_off(p, *self.change, residual))
@@ -125,7 +126,7 @@ class ReferenceNetwork:
             now, before = (change, self.change) if reads_change else (lamina.adapted, lamina.adapted_before)
             layers = lgmd.step(now, before, mean_change, dt_ms)
             maps |= {f"{name}_{layer}": image for layer, image in layers.items()}
-        maps["motion"] = self.lptc.step(lamina.adapted, lamina.adapted_before, ticks)
+        maps["motion"] = self.lptc.step(lamina.adapted, lamina.adapted_before, ticks, change_scale)
         self.luma, self.change, self.flashing = image.astype(np.float32), change, light is not None
 
         lgmd1, lgmd2 = (lgmd.spikes() for lgmd in self.lgmds)

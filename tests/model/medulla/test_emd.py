@@ -66,6 +66,13 @@ def test_long_step_prefers_the_same_speed():
     assert once.total == twice.total > 0
 
 
+def test_golden_change_that_counts_half_halves_the_motion():
+    """Both channels are half of what they would be, a quarter of the product; one half is given back."""
+    whole = emd(spot((3, 12), 1, 4, 10.0), spot((3, 12), 1, 2, 10.0), P, CLOCK_MS, 1.0)
+    half = emd(spot((3, 12), 1, 4, 5.0), spot((3, 12), 1, 2, 5.0), P, CLOCK_MS, 1.0, 0.5)
+    assert half.total == whole.total / 2 > 0
+
+
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("ticks", [1.0, 1.2, 2.0])
 def test_agrees_with_the_oracle(seed, ticks):

@@ -60,7 +60,9 @@ def stretched(spans_px: tuple[int, ...], ticks: float) -> tuple[int, ...]:
     return tuple(max(1, math.floor(span * times + 0.5)) for span in spans_px)
 
 
-def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: float) -> Motion:
+def emd(
+    channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: float, change_scale: float = 1.0
+) -> Motion:  # fmt: skip
     """Correlate one channel, (H, W) and >= 0, with itself over all spans.
 
     Each cell X1 meets the cell X2 that lies d pixels to its right,
@@ -69,7 +71,9 @@ def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: f
 
     where the products X1(t) X2(t) cancel: R_d = (1 - a)(X1(t-1) X2(t) - X1(t) X2(t-1)). R > 0 for rightward motion,
     R < 0 for leftward, 0 for a still picture. Pairs lie wholly inside the picture and are booked at X1. In a step of
-    several clock ticks things go further: the spans are stretched with it, so the speed they prefer stays.
+    several clock ticks things go further: the spans are stretched with it, so the speed they prefer stays. Such a step
+    counts its change ``change_scale`` times, a product of two changes the square of that; once is divided out, so
+    that motion shrinks as the sums of the LGMDs do that it is compared with.
 
     Source: paper Eq. (3); delays from LPLC2 (docs/sources.md).
     Reading: the pure delay of Eq. (3) is the two-tap low-pass of the published code.
@@ -79,7 +83,7 @@ def emd(channel: Image, previous: Image, p: EmdParams, clock_ms: float, ticks: f
     for span, delay in zip(stretched(p.spans_px, ticks), p.delays_ms, strict=True):
         if span >= channel.shape[1]:
             continue
-        share = np.float32(1.0 - low_pass_share(clock_ms, delay))
+        share = np.float32((1.0 - low_pass_share(clock_ms, delay)) / change_scale)
         pairs = share * (previous[:, :-span] * channel[:, span:] - channel[:, :-span] * previous[:, span:])
         motion[:, :-span] += pairs
         total += float(pairs.sum(dtype=np.float64))

@@ -37,14 +37,19 @@ class Lptc:
         """Return to rest: both potentials at 0."""
         self.rightward = self.leftward = 0.0
 
-    def step(self, now: OnOff, before: OnOff, ticks: float) -> Image:
-        """Advance one step of ``ticks`` on the adapted channels; return the local motion, (H, W), rightward positive.
+    def step(self, now: OnOff, before: OnOff, ticks: float, change_scale: float = 1.0) -> Image:
+        """Advance one step of ``ticks``, which counts its change ``change_scale`` times, on the adapted channels.
+
+        Return the local motion, (H, W), rightward positive.
 
             V = 2 / (1 + exp(-|HS| / (n K_hs))) - 1;   rightward = V if HS > 0;   leftward = -V if HS < 0
 
         Source: paper Sec. II-D gives the ranges; form and K_hs from Drosmot (docs/sources.md).
         """
-        on, off = (emd(x, x_before, self.p.emd, self.clock_ms, ticks) for x, x_before in zip(now, before, strict=True))
+        on, off = (
+            emd(x, x_before, self.p.emd, self.clock_ms, ticks, change_scale)
+            for x, x_before in zip(now, before, strict=True)
+        )
         hs = on.total + off.total
         drive = abs(hs) / (on.image.size * self.p.sigmoid_grey2)
         v = min(BELOW_ONE, 2.0 / (1.0 + math.exp(-drive)) - 1.0)
