@@ -227,7 +227,7 @@ class TestStopped:
 def test_the_picture_shows_room_and_robots(plain, truth):
     view, images, reference = plain
     tracks = track(images[:1], ROOM, reference, rate_hz=30.0)
-    picture = tracks.picture
+    picture = tracks.draw()
     assert picture.shape == (*images.shape[1:], 3)
     column, row = np.rint(view.camera.to_px(np.array([18.0, 0.0, 0.0]))).astype(int)
     assert picture[row, column].tolist() == [60, 200, 90]  # the wall at the bottom

@@ -97,10 +97,10 @@ def track(
     with screen(frame_count(video, **opening), "frames") as here:
         tracks = find(video, plan, reference, marker=marker, params=params, ids=wanted, advance=here.advance, **opening)
     _write(out, tracks_csv(tracks.rows))
-    if picture is not None and tracks.picture is not None:
+    if picture is not None and tracks.draw is not None:
         from ..report.png import write_png
 
-        write_png(picture, tracks.picture)
+        write_png(picture, tracks.draw())
     scored = None
     if score or events is not None:
         from ..experiments.tracked import score_tracks, world_of

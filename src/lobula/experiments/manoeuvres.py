@@ -13,6 +13,8 @@ from ..params import Params, param
 
 Floats = NDArray[np.float64]
 
+_LOST_S = 0.5
+
 
 @dataclass(frozen=True, kw_only=True)
 class ManoeuvreParams(Params):
@@ -27,8 +29,8 @@ class ManoeuvreParams(Params):
     least_turn_deg: float = param(30.0, "deg", "smallest turn that is a manoeuvre", low=1, high=180, source="chosen")
     touch_cm: float = param(0.1, "cm", "bodies with a smaller gap touch", low=0, high=10,
                             source="chosen: the aim for the tracks' error")  # fmt: skip
-    touch_s: float = param(0.15, "s", "a manoeuvre that begins so near in time to a touch of its robot is its answer",
-                           low=0, high=5, source="chosen")  # fmt: skip
+    touch_s: float = param(0.05, "s", "a manoeuvre that begins so near in time to a touch of its robot is its answer",
+                           low=0, high=5, source="chosen: a frame or two")  # fmt: skip
 
 
 class Manoeuvre(NamedTuple):
@@ -74,7 +76,8 @@ def manoeuvres(motion: Motion, times_s: Floats, params: ManoeuvreParams) -> list
     found = []
     reach = int(np.searchsorted(times_s, times_s[0] + params.window_s / 2 + 1e-9)) - 1
     for robot in range(motion.standing.shape[1]):
-        standing, rate = motion.standing[:, robot], motion.turn_rad_s[:, robot]
+        held = _held(motion.turn_rad_s[:, robot], times_s)
+        standing, rate = motion.standing[held, robot], motion.turn_rad_s[held, robot]
         with np.errstate(invalid="ignore"):
             turning = standing & (np.abs(rate) > math.radians(params.turning_deg_s))
         free_from = 0
@@ -117,6 +120,16 @@ def _slope(values: Floats, times_s: Floats, window_s: float, period: float = mat
     spread = n * tt - t * t
     enough = (n >= 3) & (spread > 0)
     return np.where(enough, (n * tv - t * v) / np.where(enough, spread, 1.0), np.nan)
+
+
+def _held(values: Floats, times_s: Floats) -> NDArray[np.intp]:
+    """Return for every frame the last one in which the value (T,) is known, if it is no longer ago than ``_LOST_S``.
+
+    A robot that is lost for a moment goes on with what it did.
+    """
+    here = np.arange(len(values))
+    last = np.maximum.accumulate(np.where(np.isfinite(values), here, 0))
+    return np.where(times_s - times_s[last] <= _LOST_S, last, here)
 
 
 def _usual(speed: Floats) -> float:

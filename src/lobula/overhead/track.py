@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from os import PathLike
 from typing import Any, NamedTuple
 
@@ -90,7 +91,7 @@ def track(
         left_out=sightings.left_out,
         notes=tuple(notes),
         stopped=watched.stopped,
-        picture=overlay(watched.image, room, ground, calibration, shown, marker),
+        draw=partial(overlay, watched.image, room, ground, calibration, shown, marker),
     )
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -40,8 +40,8 @@ class Tracks:
     ``rows`` (n,) TRACK_DTYPE, by frame and id; a robot that was lost for long has no rows then. ``frames`` (T,) and
     ``times_s`` (T,) are those of the recording; ``ids`` (R,) rise. ``calibration_error_cm`` is NaN where nobody can
     tell. ``left_out`` counts patterns that were seen and not believed, by the reason; ``notes`` are for people.
-    ``stopped`` is what ended the tracks before the recording's end: its failure, or an interruption. ``picture``
-    (H, W, 3) is a frame with the room and the robots drawn in.
+    ``stopped`` is what ended the tracks before the recording's end: its failure, or an interruption. ``draw``
+    makes a picture (H, W, 3) of a frame with the room and the robots drawn in.
     """
 
     rows: NDArray[np.void]
@@ -54,7 +54,7 @@ class Tracks:
     left_out: dict[str, int] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     stopped: BaseException | None = None
-    picture: NDArray[np.uint8] | None = None
+    draw: Callable[[], NDArray[np.uint8]] | None = field(default=None, repr=False)
 
     def poses(self) -> NDArray[np.void]:
         """Return (T, R) POSE_DTYPE: a row for every frame, a column for every robot, NaN where it is not known."""
