@@ -14,6 +14,7 @@ VERBS = {
     "demo": "see it work: no camera, no window; who spiked when, and a picture",
     "run": "watch a clip, a camera or a pipe: collisions, traces, annotated video, report",
     "evaluate": "score labelled clips: hits, lead times, false alarms a minute",
+    "arena": "several robots in a room: contacts, avoidances, success rates",
     "reproduce": "the paper's figures made again, and which of its claims hold",
     "plot": "draw a saved trace",
     "explain": "why it did, or did not, alarm at a given moment",
