@@ -61,6 +61,16 @@ STATE_LABELS: Mapping[str, str] = {
     "turning": "turning",
 }
 
+EVENT_LABELS: Mapping[str, str] = {
+    "AA": "avoided approach",
+    "AT": "avoided passer-by",
+    "AP": "avoided wall",
+    "spurious": "avoided nothing",
+    "CR": "hit robot",
+    "CP": "hit wall",
+}
+"""What happens in the arena, in words; obstacles count as wall."""
+
 RANGES: Mapping[Neuron, tuple[float, float]] = {
     "lgmd1": (0.5, 1.0),
     "lgmd2": (0.5, 1.0),
@@ -68,6 +78,14 @@ RANGES: Mapping[Neuron, tuple[float, float]] = {
     "lptc_l": (-1.0, 0.0),
 }
 """Membrane potential of each neuron, bottom and top of its axis."""
+
+
+def event_colours(theme: Theme) -> dict[str, str]:
+    """Return the colour of each kind of event in the arena; both kinds of contact are red and differ in their mark."""
+    n = theme.neurons
+    avoided = {"AA": n["lptc_l"], "AT": n["lptc_r"], "AP": n["lgmd1"], "spurious": theme.dim}
+    return {**avoided, "CR": theme.collision, "CP": theme.collision}
+
 
 _PAPER_THRESHOLDS: Mapping[Neuron, float] = {"lgmd1": 0.7, "lgmd2": 0.7, "lptc_r": 0.2, "lptc_l": 0.2}
 

@@ -60,7 +60,7 @@ class AnnotatedVideo:
         assert self._video is not None
         view = self._canvas[:-STRIP_HEIGHT]
         _place(view, image, self._scaler)
-        _mark(view, reading)
+        mark_decision(view, reading)
         self._strip.push(index, reading)
         self._strip.draw(self._canvas[-STRIP_HEIGHT:])
         try:
@@ -114,7 +114,7 @@ def _place(view: Canvas, image: NDArray[np.uint8] | None, scaler: VideoReformatt
     view[top : top + height, left : left + width] = scaled.to_ndarray()
 
 
-def _mark(view: Canvas, reading: Reading) -> None:
+def mark_decision(view: Canvas, reading: Reading) -> None:
     """Say collision, or a state other than ok, on the picture itself."""
     if reading.collision:
         border(view, 8, rgb(DARK.collision))
