@@ -120,12 +120,12 @@ def _draw_plan(axes: Axes, ground: GroundPlan) -> None:
         axes.annotate("", end - ground.radius_cm * along, start, arrowprops=arrow)
         axes.add_patch(patches.Circle(end, ground.radius_cm, facecolor="none", edgecolor=LIGHT.dim, linewidth=0.7))
         angle = np.degrees(np.arctan2(start[0] - end[0], start[1] - end[1]))
-        x, y = start - 0.06 * reach * along
+        x, y = start - 0.1 * reach * along
         axes.text(x, y, f"{angle:+.0f}" if round(angle) else "0", ha="center", va="center",
                   fontsize=8, color=LIGHT.text)  # fmt: skip
     axes.add_patch(patches.Circle((0, -ground.behind_cm), ground.radius_cm, color=LIGHT.text))
     axes.plot(0, 0, "o", color=LIGHT.collision, markersize=3.5)
-    axes.set_xlim(-1.12 * reach, 1.12 * reach)
+    axes.set_xlim(-1.18 * reach, 1.18 * reach)
     axes.set_ylim(-ground.behind_cm - 1.4 * ground.radius_cm, 1.16 * reach)
     axes.set_aspect("equal")
     axes.axis("off")

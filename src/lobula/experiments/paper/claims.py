@@ -6,8 +6,8 @@ not: the share of seeds that do has a Wilson interval.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
 from ...intervals import wilson
@@ -22,12 +22,15 @@ PART_SHARE = 0.5
 
 
 class Finding(NamedTuple):
-    """A claim under one condition: in how many of how many trials it was seen, and the numbers behind it."""
+    """A claim under one condition: in how many of how many trials it was seen; ``tell`` gives the numbers behind it.
+
+    The numbers have bootstrap intervals, which take time: they are asked for where they are shown.
+    """
 
     condition: str
     held: int
     trials: int
-    numbers: str
+    tell: Callable[[], str]
 
     @property
     def share(self) -> float:
@@ -44,15 +47,13 @@ class Finding(NamedTuple):
 class Claim:
     """One thing the paper says.
 
-    ``paper`` tells what it says, ``rule`` what is counted as seeing it in one trial. ``reasons`` tells by the name of a
-    preset why it does not hold there, where that was found out.
+    ``paper`` tells what it says, ``rule`` what is counted as seeing it in one trial.
     """
 
     number: str
     paper: str
     rule: str
     judge: Callable[[Sequence[Trial]], Iterable[Finding]]
-    reasons: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +65,6 @@ class Verdict:
     rule: str
     preset: str
     findings: tuple[Finding, ...]
-    reason: str
 
     @property
     def held(self) -> int:
@@ -99,11 +99,11 @@ def judged(claims: Iterable[Claim], trials: Sequence[Trial], setup: str = MAIN) 
         for preset, own in by_preset.items():
             yield Verdict(
                 number=claim.number, paper=claim.paper, rule=claim.rule, preset=preset,
-                findings=tuple(claim.judge(own)), reason=claim.reasons.get(preset, ""),
+                findings=tuple(claim.judge(own)),
             )  # fmt: skip
 
 
-def finding(condition: str, seen: Iterable[bool], numbers: str) -> Finding:
+def finding(condition: str, seen: Iterable[bool], tell: Callable[[], str]) -> Finding:
     """Count the trials in which a claim was seen."""
     flags = list(seen)
-    return Finding(condition, sum(flags), len(flags), numbers)
+    return Finding(condition, sum(flags), len(flags), tell)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,11 +16,16 @@ from .trials import Trial
 
 def mean_text(values: Iterable[float], digits: int = 1) -> str:
     """Return the mean over the seeds and its 95 % bootstrap interval, such as ``12.3 (11.8 to 12.9)``."""
-    known = [value for value in values if math.isfinite(value)]
-    if not known:
+    return _mean_text(tuple(sorted(value for value in values if math.isfinite(value))), digits)
+
+
+@lru_cache(maxsize=4096)
+def _mean_text(values: tuple[float, ...], digits: int) -> str:
+    """The same counts come again and again, ten zeros most often."""
+    if not values:
         return "none"
-    low, high = bootstrap(np.array(known)[:, None], lambda sums: sums[:, 0] / len(known))
-    mean = _short(float(np.mean(known)), digits)
+    low, high = bootstrap(np.array(values)[:, None], lambda sums: sums[:, 0] / len(values))
+    mean = _short(float(np.mean(values)), digits)
     return mean if math.isnan(low) else f"{mean} ({_short(low, digits)} to {_short(high, digits)})"
 
 
@@ -37,6 +43,16 @@ def spikes_text(trials: Sequence[Trial], neurons: Sequence[Neuron]) -> str:
 def peaks_text(trials: Sequence[Trial], neurons: Sequence[Neuron]) -> str:
     """Return the mean peak potential, neuron by neuron."""
     return ", ".join(f"{LABELS[n]} {mean_text((t.peak[n] for t in trials), 2)}" for n in neurons)
+
+
+def against_text(
+    text: Callable[[Sequence[Trial], Sequence[Neuron]], str],
+    ours: Sequence[Trial],
+    others: Sequence[Trial],
+    neurons: Sequence[Neuron],
+) -> str:
+    """Return ``text`` of two courses that are compared."""
+    return f"{text(ours, neurons)}, against {text(others, neurons)}"
 
 
 def _short(value: float, digits: int) -> str:

@@ -26,10 +26,9 @@ NAMES: dict[str, str] = {
     "angular": "angular approach",
 }
 
-Line = Literal["radial", "across"]
+LINES = ("radial", "across")
 """How an angular approach goes: straight at the lens, so that it keeps its bearing and its edges lengthen; or to the
 place right before the lens, so that it crosses the view."""
-LINES: tuple[Line, ...] = ("radial", "across")
 
 
 class Reading(NamedTuple):
@@ -65,6 +64,10 @@ class CourseParams(Params):
                            source="as in the synthetic battery")  # fmt: skip
     angular_cm: float = param(20.0, "cm", "length of an angular approach; all angles fit into the arena", low=1,
                               high=25, source="chosen")  # fmt: skip
+    angular_line: str = param(
+        "radial", "", "how an angular approach goes", choices=LINES,
+        source="chosen among eight set-ups by the paper's words, see the page of Fig. 6",
+    )  # fmt: skip
     angular_near_cm: float = param(
         2.0, "cm", "gap where an angular approach ends", low=0.1, high=20,
         source="chosen among eight set-ups by the paper's words, see the page of Fig. 6",
@@ -155,7 +158,7 @@ def course(motion: Motion, speed_cm_s: float, p: CourseParams, radius_cm: float)
     return Course(motion=motion, start=start, end=end, speed_cm_s=speed_cm_s)
 
 
-def angular(angle_deg: float, speed_cm_s: float, p: CourseParams, radius_cm: float, line: Line = "radial") -> Course:
+def angular(angle_deg: float, speed_cm_s: float, p: CourseParams, radius_cm: float) -> Course:
     """Return an approach from the bearing ``angle_deg`` that ends ``p.angular_near_cm`` before the lens.
 
     ``radial``: on a line that points at the lens. ``across``: on a line that makes ``angle_deg`` with the optical axis
@@ -166,6 +169,6 @@ def angular(angle_deg: float, speed_cm_s: float, p: CourseParams, radius_cm: flo
     bearing = math.radians(angle_deg)
     ahead, right = math.cos(bearing), math.sin(bearing)
     reach_cm = p.angular_near_cm + radius_cm
-    end = Place(reach_cm * ahead, reach_cm * right) if line == "radial" else Place(reach_cm, 0.0)
+    end = Place(reach_cm * ahead, reach_cm * right) if p.angular_line == "radial" else Place(reach_cm, 0.0)
     start = Place(end.ahead_cm + p.angular_cm * ahead, end.right_cm + p.angular_cm * right)
     return Course(motion="angular", start=start, end=end, speed_cm_s=speed_cm_s, angle_deg=angle_deg)

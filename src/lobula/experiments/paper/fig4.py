@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from numpy.typing import NDArray
@@ -13,7 +14,7 @@ from ...runtime.header import thresholds
 from ...types import Neuron
 from .claims import Claim, Finding, finding
 from .conditions import chosen
-from .counts import mean_text, peaks_text
+from .counts import against_text, mean_text, peaks_text
 from .courses import FOUR, NAMES, READINGS, SPEED_LABELS, Motion, course
 from .figure import PaperFigure, Plan, about
 from .stage import Film, Stage
@@ -42,7 +43,9 @@ def shots(plan: Plan) -> Iterator[About]:
     for seed in plan.seeds:
         for motion in FOUR:
             drive = course(motion, SPEED_CM_S, plan.courses, plan.world.body.radius_cm)
-            yield About(figure="fig4", course=drive, p=plan.courses, seed=seed, label=LABEL, reading=READING)
+            yield About(
+                figure="fig4", course=drive, p=plan.courses, world=plan.world, seed=seed, label=LABEL, reading=READING
+            )
 
 
 def _strongest(trials: Sequence[Trial]) -> Iterator[Finding]:
@@ -50,41 +53,46 @@ def _strongest(trials: Sequence[Trial]) -> Iterator[Finding]:
     for motion in FOUR[1:]:
         others = chosen(trials, motion=motion)
         seen = [all(a.peak[n] > b.peak[n] for n in LGMDS) for a, b in zip(approaches, others, strict=True)]
-        numbers = f"{peaks_text(approaches, LGMDS)}, against {peaks_text(others, LGMDS)}"
-        yield finding(f"against {NAMES[motion]}", seen, numbers)
+        tell = partial(against_text, peaks_text, approaches, others, LGMDS)
+        yield finding(f"against {NAMES[motion]}", seen, tell)
 
 
 def _brief(trials: Sequence[Trial]) -> Iterator[Finding]:
     receding = chosen(trials, motion="recession")
     seen = [t.spikes_course["lgmd1"] > 0 and t.burst_s["lgmd1"] <= BRIEF_S for t in receding]
-    spikes, length_s = (mean_text(values) for values in (
-        [t.spikes_course["lgmd1"] for t in receding], [t.burst_s["lgmd1"] for t in receding]))  # fmt: skip
-    yield finding("recession", seen, f"{spikes} spikes within {length_s} s")
+    yield finding("recession", seen, partial(_burst_text, receding))
+
+
+def _burst_text(trials: Sequence[Trial]) -> str:
+    spikes = mean_text(t.spikes_course["lgmd1"] for t in trials)
+    return f"{spikes} spikes within {mean_text((t.burst_s['lgmd1'] for t in trials), 2)} s"
 
 
 def _suppressed(trials: Sequence[Trial]) -> Iterator[Finding]:
     receding = chosen(trials, motion="recession")
-    yield finding("recession", [t.spikes_course["lgmd2"] == 0 for t in receding], peaks_text(receding, ["lgmd2"]))
+    yield finding(
+        "recession", [t.spikes_course["lgmd2"] == 0 for t in receding], partial(peaks_text, receding, ["lgmd2"])
+    )
 
 
 def _quiet(trials: Sequence[Trial]) -> Iterator[Finding]:
     for motion in FOUR[:2]:
         found = chosen(trials, motion=motion)
         seen = [t.spikes_course["lptc_r"] == t.spikes_course["lptc_l"] == 0 for t in found]
-        yield finding(NAMES[motion], seen, peaks_text(found, LPTCS))
+        yield finding(NAMES[motion], seen, partial(peaks_text, found, LPTCS))
 
 
 def _one_sided(trials: Sequence[Trial], motion: Motion, own: Neuron, other: Neuron) -> Iterator[Finding]:
     found = chosen(trials, motion=motion)
     seen = [t.spikes_course[own] > 0 and t.spikes_course[other] == 0 for t in found]
-    yield finding(NAMES[motion], seen, peaks_text(found, LPTCS))
+    yield finding(NAMES[motion], seen, partial(peaks_text, found, LPTCS))
 
 
 def _activated(trials: Sequence[Trial]) -> Iterator[Finding]:
     for motion in FOUR[2:]:
         found = chosen(trials, motion=motion)
         seen = [min(t.spikes_course[n] for n in LGMDS) > 0 for t in found]
-        yield finding(NAMES[motion], seen, peaks_text(found, LGMDS))
+        yield finding(NAMES[motion], seen, partial(peaks_text, found, LGMDS))
 
 
 CLAIMS = (

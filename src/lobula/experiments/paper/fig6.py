@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,9 +12,9 @@ from ...report.angle_plot import AnglePanel, GroundPlan, plot_angles
 from ...types import NEURONS, Neuron
 from .claims import Claim, Finding, finding
 from .conditions import Speed, chosen, each_speed
-from .counts import spikes_text
-from .courses import LINES, READINGS, SPEED_LABELS, CourseParams, Line, angular
-from .figure import PaperFigure, Plan, about
+from .counts import against_text, spikes_text
+from .courses import LINES, READINGS, SPEED_LABELS, angular
+from .figure import EXACTLY, NOISELESS, Other, PaperFigure, Plan, about
 from .levers import LEVERS
 from .setups import setup_table
 from .trials import MAIN, About, Trial
@@ -31,17 +31,10 @@ SILENT_SHARE = 0.1
 LGMDS: tuple[Neuron, ...] = ("lgmd1", "lgmd2")
 
 
-class OtherSetUp(NamedTuple):
-    """Another reading of the lost drawing of the set-up: the line, and what else is different."""
-
-    line: Line
-    changes: Mapping[str, Any]
-
-
-OTHERS: dict[str, OtherSetUp] = {
-    "placed exactly": OtherSetUp("radial", {"misplaced_cm": 0.0}),
+OTHERS: dict[str, Other] = {
+    "placed exactly, no noise": Other(EXACTLY, NOISELESS),
     **{
-        f"{line}, ends at {near_cm:g} cm": OtherSetUp(line, {"angular_near_cm": near_cm})
+        f"{line}, ends at {near_cm:g} cm": Other({"angular_line": line, "angular_near_cm": near_cm})
         for line in LINES
         for near_cm in (3.5, 2.5, 2.0, 1.5)
         if (line, near_cm) != ("radial", 2.0)
@@ -53,24 +46,21 @@ OTHERS_AT = SPEED_LABELS[1:2]
 
 def shots(plan: Plan) -> Iterator[About]:
     """Yield all angles at six speeds for every seed; then the other set-ups, for the first seeds only."""
-    yield from _courses(plan, plan.courses, LINES[0], plan.seeds, MAIN)
-    for name, other in OTHERS.items():
-        p = replace(plan.courses, **other.changes)
-        yield from _courses(plan, p, other.line, plan.seeds[: plan.side_seeds], name, OTHERS_AT)
+    yield from _courses(plan, MAIN, SPEED_LABELS)
+    for setup, other in OTHERS.items():
+        yield from _courses(other.plan(plan), setup, OTHERS_AT)
 
 
-def _courses(
-    plan: Plan, p: CourseParams, line: Line, seeds: Sequence[int], setup: str, labels: Sequence[str] = SPEED_LABELS
-) -> Iterator[About]:
+def _courses(plan: Plan, setup: str, labels: Sequence[str]) -> Iterator[About]:
     for reading in READINGS:
         for label in labels:
             speed_cm_s = reading.speeds_cm_s[SPEED_LABELS.index(label)]
-            for seed in seeds:
+            for seed in plan.seeds:
                 for angle_deg in ANGLES_DEG:
-                    drive = angular(angle_deg, speed_cm_s, p, plan.world.body.radius_cm, line)
                     yield About(
-                        figure="fig6", course=drive, p=p, seed=seed, label=label, reading=reading.name, setup=setup
-                    )
+                        figure="fig6", course=angular(angle_deg, speed_cm_s, plan.courses, plan.world.body.radius_cm),
+                        p=plan.courses, world=plan.world, seed=seed, label=label, reading=reading.name, setup=setup,
+                    )  # fmt: skip
 
 
 def _from(angle_deg: float) -> str:
@@ -86,29 +76,29 @@ def _lptcs_at_large_angles(trials: Sequence[Trial]) -> Iterator[Finding]:
     for speed, angle_deg in _each(trials, lambda angle_deg: LARGE_DEG <= abs(angle_deg) <= SEEN_DEG):
         found, (own, _) = speed.of("angular", angle_deg), _own(angle_deg)
         seen = [t.spikes[own] > t.count("busier") for t in found]
-        yield finding(f"{_from(angle_deg)}, {speed.text}", seen, spikes_text(found, (own, *LGMDS)))
+        yield finding(f"{_from(angle_deg)}, {speed.text}", seen, partial(spikes_text, found, (own, *LGMDS)))
 
 
 def _side(trials: Sequence[Trial], sign: int) -> Iterator[Finding]:
     for speed, angle_deg in _each(trials, lambda angle_deg: 0 < sign * angle_deg <= SEEN_DEG):
         found, (own, other) = speed.of("angular", angle_deg), _own(angle_deg)
         seen = [t.spikes[own] > 0 and t.spikes[other] <= SILENT_SHARE * t.spikes[own] for t in found]
-        yield finding(f"{_from(angle_deg)}, {speed.text}", seen, spikes_text(found, (own, other)))
+        yield finding(f"{_from(angle_deg)}, {speed.text}", seen, partial(spikes_text, found, (own, other)))
 
 
 def _frontal_most(trials: Sequence[Trial]) -> Iterator[Finding]:
     for speed, angle_deg in _each(trials, lambda angle_deg: angle_deg != 0):
         frontal, others = speed.of("angular"), speed.of("angular", angle_deg)
         seen = [all(a.spikes[n] > b.spikes[n] for n in LGMDS) for a, b in zip(frontal, others, strict=True)]
-        numbers = f"{spikes_text(frontal, LGMDS)}, against {spikes_text(others, LGMDS)}"
-        yield finding(f"against {_from(angle_deg)}, {speed.text}", seen, numbers)
+        tell = partial(against_text, spikes_text, frontal, others, LGMDS)
+        yield finding(f"against {_from(angle_deg)}, {speed.text}", seen, tell)
 
 
 def _lgmds_at_frontal(trials: Sequence[Trial]) -> Iterator[Finding]:
     for speed in each_speed(trials):
         found = speed.of("angular")
         seen = [t.count("lesser") > max(t.spikes["lptc_r"], t.spikes["lptc_l"]) for t in found]
-        yield finding(f"frontal, {speed.text}", seen, spikes_text(found, NEURONS))
+        yield finding(f"frontal, {speed.text}", seen, partial(spikes_text, found, NEURONS))
 
 
 def _balance_moves(trials: Sequence[Trial]) -> Iterator[Finding]:
@@ -117,8 +107,8 @@ def _balance_moves(trials: Sequence[Trial]) -> Iterator[Finding]:
             near, far = (speed.of("angular", sign * angle_deg) for angle_deg in (SMALL_DEG, LARGE_DEG))
             own, _ = _own(sign)
             seen = [_lptc_share(b, own) > _lptc_share(a, own) for a, b in zip(near, far, strict=True)]
-            numbers = f"{spikes_text(far, (own, *LGMDS))}, against {spikes_text(near, (own, *LGMDS))}"
-            yield finding(f"{_from(sign * LARGE_DEG)} against {SMALL_DEG:g}, {speed.text}", seen, numbers)
+            tell = partial(against_text, spikes_text, far, near, (own, *LGMDS))
+            yield finding(f"{_from(sign * LARGE_DEG)} against {SMALL_DEG:g}, {speed.text}", seen, tell)
 
 
 def _lptc_share(t: Trial, own: Neuron) -> float:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...arena.world import World
+from ...arena.world import World, world_hash
 from ...engine.network import Network
 from ...model.network import NetworkParams
-from ...params import settings_hash
+from ...params import settings_hash, with_settings
 from .claims import Claim
 from .courses import CourseParams
 from .levers import pulled
@@ -51,16 +52,38 @@ class PaperFigure:
     levers: bool = True
 
 
+EXACTLY: Mapping[str, Any] = {"misplaced_cm": 0.0}
+NOISELESS: Mapping[str, Any] = {"camera": {"noise_grey": 0.0}}
+
+
+class Other(NamedTuple):
+    """Another way to set up the robots: settings of the courses and of the arena that differ from the plan's."""
+
+    courses: Mapping[str, Any] = MappingProxyType({})
+    world: Mapping[str, Any] = MappingProxyType({})
+
+    def plan(self, plan: Plan) -> Plan:
+        """Return ``plan`` with these settings, for its first ``side_seeds`` seeds."""
+        source = "to see what hangs on it"
+        return replace(
+            plan,
+            seeds=plan.seeds[: plan.side_seeds],
+            courses=with_settings(plan.courses, self.courses, source),
+            world=with_settings(plan.world, self.world, source),
+        )
+
+
 def run(figure: PaperFigure, plan: Plan, advance: Callable[[], None] | None = None) -> list[Trial]:
     """Film every course of ``figure`` once and show it to every preset; ``advance`` is called after each film.
 
     The first ``side_seeds`` seeds of the main set-up are shown to the presets with other constants too.
     """
     trials: list[Trial] = []
-    stage = Stage(plan.world)
+    stages: dict[str, Stage] = {}
     networks = {name: Network(params) for name, params in plan.presets.items()}
     others = [(change, name, Network(params)) for change, name, params in pulled(plan.presets)]
     for about in figure.shots(plan):
+        stage = stages.setdefault(world_hash(about.world), Stage(about.world))
         film = stage.film(about.course, about.p, about.seed)
         trials += [trial(about, film, name, network) for name, network in networks.items()]
         if figure.levers and about.setup == MAIN and about.seed in plan.seeds[: plan.side_seeds]:

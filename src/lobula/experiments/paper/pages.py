@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..._version import __version__
@@ -10,10 +11,17 @@ from ...params import settings_hash
 from .claims import HELD_SHARE, PART_SHARE, Verdict
 from .counts import share_text
 from .figure import PaperFigure, Plan
+from .reasons import reason
 from .trials import Trial
 
 Document = Mapping[str, Any]
-"""The verdicts of one figure or table: what ``FIGURE.json`` holds and what ``paper.md`` is made of."""
+"""The verdicts of one figure or table: what ``FIGURE.json`` holds and what ``paper.md`` is made of.
+
+``paper.md`` needs of it: figure, title, command, seeds, presets (name to settings hash), and claims, each with number,
+paper and, by preset, verdicts: status, ours (text) and reason.
+"""
+
+WIDTH = 118
 
 RULE = (
     f"A claim *holds* if under every condition at least {100 * HELD_SHARE:.0f} % of the trials show it; it *does not "
@@ -36,14 +44,16 @@ def document(figure: PaperFigure, plan: Plan, verdicts: Sequence[Verdict], scene
             "held": v.held,
             "trials": v.trials,
             "interval": [round(end, 6) for end in v.interval],
-            "reason": v.reason if v.status != "holds" else "",
-            "conditions": [f._asdict() for f in v.findings],
+            "reason": reason(v.number, v.preset) if v.status != "holds" else "",
+            "conditions": [
+                {"condition": f.condition, "held": f.held, "trials": f.trials, "numbers": f.tell()} for f in v.findings
+            ],
         }
     return {
         "version": __version__,
         "figure": figure.name,
         "title": figure.title,
-        "command": f"lobula reproduce {figure.name}",
+        "command": f"lobula reproduce {figure.name} --out DIR",
         "presets": {name: settings_hash(params) for name, params in plan.presets.items()},
         "scene_hash": scene_hash,
         "seeds": list(plan.seeds),
@@ -57,9 +67,12 @@ def figure_page(
     """Yield the lines of ``FIGURE.md``. ``pictures`` names the drawing of each preset."""
     yield f"# {_numbered(figure.name)}: {figure.title}"
     yield ""
-    yield f"Made by `{found['command']}`, lobula {found['version']}, seeds {_range(found['seeds'])}, arena and courses"
-    yield f"`{found['scene_hash']}`, " + ", ".join(f"preset `{n}` `{h}`" for n, h in found["presets"].items()) + "."
-    yield f"Every trial is in [{figure.name}.csv]({figure.name}.csv). Robots, wall and camera are rendered."
+    presets = ", ".join(f"preset `{name}` `{settings}`" for name, settings in found["presets"].items())
+    yield (
+        f"Made by `{found['command']}`, lobula {found['version']}, seeds {_range(found['seeds'])}, arena and courses "
+        f"`{found['scene_hash']}`, {presets}. It leaves every trial in `{figure.name}.csv`. Robots, wall and camera "
+        "are rendered."
+    )
     for preset, picture in pictures.items():
         yield ""
         yield f"![{figure.title}, preset {preset}]({picture})"
@@ -105,12 +118,17 @@ def _claim(claim: Mapping[str, Any]) -> Iterator[str]:
             yield f"| {one['condition']} | {one['held']}/{one['trials']} | {one['numbers']} |"
 
 
-def gathered_page(documents: Sequence[Document], images: str = "") -> Iterator[str]:
+def gathered_page(documents: Sequence[Document], details: str = "") -> Iterator[str]:
     """Yield the lines of ``paper.md``: every claim, claim by claim, with what makes it and how it fares.
 
-    ``images`` is the folder of the pages and pictures as seen from the page, with its slash; empty: beside it.
+    ``details`` is the folder of the figures and their pages as seen from this one, with its slash; empty: beside it.
     """
     yield "# The paper, claim by claim"
+    yield ""
+    yield (
+        "What Fu and Yue (2020) say of their model, each claim tried with the network of this package. The presets "
+        "differ in what the paper does not print. Made by the commands below."
+    )
     yield ""
     yield RULE
     yield ""
@@ -122,9 +140,13 @@ def gathered_page(documents: Sequence[Document], images: str = "") -> Iterator[s
         yield ""
         yield f"## {_numbered(found['figure'])}"
         yield ""
-        yield f"![{found['title']}]({images}{found['figure']}.png)"
+        yield f"![{found['title']}]({details}{found['figure']}.png)"
         yield ""
-        yield f"Seeds {_range(found['seeds'])}; " + ", ".join(f"`{n}` `{h}`" for n, h in found["presets"].items()) + "."
+        presets = ", ".join(f"`{name}` `{settings}`" for name, settings in found["presets"].items())
+        yield (
+            f"Seeds {_range(found['seeds'])}; presets {presets}. Drawn: preset `{next(iter(found['presets']))}`. "
+            f"[Every condition, with its numbers]({details}{found['figure']}.md)."
+        )
         yield ""
         yield from claims_table(found)
         reasons = [
@@ -159,3 +181,15 @@ def _numbered(name: str) -> str:
 
 def _range(seeds: Sequence[int]) -> str:
     return f"{seeds[0]}" if len(seeds) == 1 else f"{seeds[0]} to {seeds[-1]}"
+
+
+def as_text(lines: Iterable[str]) -> str:
+    """Return a page: prose and lists wrapped, tables, headings and pictures left as they are."""
+    wrapped = []
+    for line in lines:
+        inside = line[:1] in "|#!" or len(line) <= WIDTH
+        indent = "  " if line.startswith("- ") else ""
+        wrapped += [line] if inside else textwrap.wrap(
+            line, WIDTH, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+        )  # fmt: skip
+    return "\n".join(wrapped) + "\n"

@@ -7,17 +7,18 @@ for people, FIGURE.json for programs; and paper.md, which gathers all that lies 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Mapping
+import shutil
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError
-from ...report.landing import whole_file
+from ...report.landing import whole_file, writing
 from ...report.plots import save_figure
 from . import fig4, fig5, fig6
 from .claims import judged
 from .figure import PaperFigure, Plan, run
-from .pages import Document, document, figure_page, gathered_page
+from .pages import Document, as_text, document, figure_page, gathered_page
 from .trials import as_csv
 
 FIGURES: Mapping[str, PaperFigure] = {figure.name: figure for figure in (fig4.FIGURE, fig5.FIGURE, fig6.FIGURE)}
@@ -64,14 +65,14 @@ def reproduce(
         for suffix in (".svg", ".png"):
             save_figure(drawing, folder / f"{name}{suffix}")
         pictures[preset] = f"{name}.png"
-    _write(folder / f"{figure.name}.md", _text(figure_page(figure, plan, trials, found, pictures)))
+    _write(folder / f"{figure.name}.md", as_text(figure_page(figure, plan, trials, found, pictures)))
     gather(folder)
     return found
 
 
 def gather(folder: Path) -> None:
     """Write ``paper.md`` from all the documents in ``folder``."""
-    _write(folder / "paper.md", _text(gathered_page(documents(folder))))
+    _write(folder / "paper.md", as_text(gathered_page(documents(folder))))
 
 
 def documents(folder: Path) -> list[Document]:
@@ -80,8 +81,16 @@ def documents(folder: Path) -> list[Document]:
     return [json.loads(path.read_text(encoding="utf-8")) for path in paths if path.exists()]
 
 
-def _text(lines: Iterable[str]) -> str:
-    return "\n".join(lines) + "\n"
+def publish(folder: Path, docs: Path) -> None:
+    """Put what lies in ``folder`` into ``docs``: ``paper.md``, and the pages and PNGs below ``docs/paper``."""
+    found = documents(folder)
+    details = docs / "paper"
+    with writing(details):
+        details.mkdir(parents=True, exist_ok=True)
+        for one in found:
+            for path in (folder / f"{one['figure']}.md", *sorted(folder.glob(f"{one['figure']}*.png"))):
+                shutil.copyfile(path, details / path.name)
+    _write(docs / "paper.md", as_text(gathered_page(found, "paper/")))
 
 
 def _write(path: Path, text: str) -> None:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...arena.world import World
 from ...engine.network import Network
 from ...model.decision import Decision, DecisionParams
 from ...params import settings_hash
@@ -78,6 +79,7 @@ class About:
     figure: str
     course: Course
     p: CourseParams
+    world: World
     seed: int
     label: str
     reading: str
