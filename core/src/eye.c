@@ -51,7 +51,8 @@ static eye_memory memory_at(void *base, const lobula_eye_scene *scene, const lob
     m.scratch.cylinders = (void *)take(base, &m.size, cylinders * sizeof(eye_cylinder));
     m.scratch.cuts = (void *)take(base, &m.size, (cylinders * EYE_CUTS + EYE_ROOM_CUTS) * sizeof(double));
     m.scratch.edges = (void *)take(base, &m.size, edges_of(scene, bodies) * sizeof(eye_edge));
-    m.scratch.column = (void *)take(base, &m.size, (size_t)c->height * sizeof(float));
+    m.scratch.piece = (void *)take(base, &m.size, (size_t)c->height * sizeof(float));
+    m.scratch.part = (void *)take(base, &m.size, (size_t)c->height * sizeof(float));
     m.columns = (void *)take(base, &m.size, pixels * sizeof(float));
     m.spare = (void *)take(base, &m.size, c->blur_px > 0 ? pixels * sizeof(float) : 0);
     m.bytes = (void *)take(base, &m.size, pixels);

@@ -11,7 +11,7 @@
 /* Noise is a sum of four bytes less its mean, with a standard deviation of sqrt(4 (256^2 - 1) / 12); times `scale` over
  * 2^EYE_SCALE_BITS it is in 1/128 grey. */
 #define EYE_BYTES_MEAN 510
-#define EYE_BYTES_SD 147.79941813145522
+#define EYE_BYTES_SD 147.80054127099805
 #define EYE_SCALE_BITS 14
 
 typedef struct {

@@ -7,6 +7,11 @@
  * they fall by less than this many rows over the first pixel. */
 #define BENT_ROWS 0.05
 
+/* Where an edge of the wall falls by more rows than this within a column, a stripe that ends there meets it higher or
+ * lower than the column's mean says: the column is cut. */
+#define STEEP_ROWS 1.0
+#define MOST_PARTS 8
+
 typedef struct {
     const lobula_eye_scene *scene;
     const lobula_eye_camera *camera;
@@ -163,31 +168,60 @@ static void cover_with_cylinder(const eye_state *e, const eye_cylinder *c, doubl
     eye_stack_cover(stack, edges, count);
 }
 
-/* What lies between two columns, between which no surface begins or ends. */
-static void paint_piece(eye_state *e, const eye_scratch *k, double u0, double u1, float *column) {
-    double s0 = ray_at(e, u0), s1 = ray_at(e, u1), middle = 0.5 * (s0 + s1);
-    eye_stack stack = {.edges = k->edges};
-    start_with_room(e, s0, s1, &stack);
+static void finish(const eye_state *e, const eye_scratch *k, double s0, double s1, eye_stack *stack, float *column) {
+    double middle = 0.5 * (s0 + s1);
     for (int i = 0; i < e->cylinders; i++) {
         const eye_cylinder *c = &k->cylinders[i];
-        if (c->left < middle && middle < c->right) cover_with_cylinder(e, c, s0, s1, &stack);
+        if (c->left < middle && middle < c->right) cover_with_cylinder(e, c, s0, s1, stack);
     }
-    eye_paint(&stack, column, e->camera->height);
+    eye_paint(stack, column, e->camera->height);
+}
+
+static void add(float *restrict to, const float *restrict from, float share, int height) {
+    for (int y = 0; y < height; y++) to[y] += share * from[y];
+}
+
+/* Into how many parts the wall's edges, where they are in the picture, and its stripes must be cut. */
+static int parts_of(const eye_state *e, const eye_stack *room) {
+    double most = 0;
+    for (int i = 0; i < EYE_ROOM_EDGES && e->strip; i++) {
+        const eye_edge *edge = &room->edges[i];
+        double rows = edge->high - edge->low;
+        if (edge->high > 0 && edge->low < e->camera->height && rows > most) most = rows;
+    }
+    return most < STEEP_ROWS ? 1 : most < STEEP_ROWS * MOST_PARTS ? 1 + (int)(most / STEEP_ROWS) : MOST_PARTS;
+}
+
+/* What lies between two columns, between which no surface begins or ends. */
+static void paint_piece(eye_state *e, const eye_scratch *k, double u0, double u1, float *column) {
+    double s0 = ray_at(e, u0), s1 = ray_at(e, u1);
+    eye_stack stack = {.edges = k->edges};
+    start_with_room(e, s0, s1, &stack);
+    int parts = parts_of(e, &stack);
+    if (parts == 1) {
+        finish(e, k, s0, s1, &stack, column);
+        return;
+    }
+    memset(column, 0, (size_t)e->camera->height * sizeof *column);
+    for (int i = 0; i < parts; i++) {
+        double from = s0 + (s1 - s0) * i / parts, to = s0 + (s1 - s0) * (i + 1) / parts;
+        start_with_room(e, from, to, &stack);
+        finish(e, k, from, to, &stack, k->part);
+        add(column, k->part, 1.0f / (float)parts, e->camera->height);
+    }
 }
 
 static void paint_column(eye_state *e, const eye_scratch *k, int x, int *cut, float *column) {
-    int height = e->camera->height;
     if (*cut == e->cuts || k->cuts[*cut] >= x + 1) {
         paint_piece(e, k, x, x + 1, column);
         return;
     }
-    memset(column, 0, (size_t)height * sizeof *column);
+    memset(column, 0, (size_t)e->camera->height * sizeof *column);
     for (double from = x; from < x + 1;) {
         double to = *cut < e->cuts && k->cuts[*cut] < x + 1 ? k->cuts[(*cut)++] : x + 1;
         if (to > from) {
-            float share = (float)(to - from);
-            paint_piece(e, k, from, to, k->column);
-            for (int y = 0; y < height; y++) column[y] += share * k->column[y];
+            paint_piece(e, k, from, to, k->piece);
+            add(column, k->piece, (float)(to - from), e->camera->height);
         }
         from = to;
     }

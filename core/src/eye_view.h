@@ -19,7 +19,7 @@ typedef struct {
     eye_cylinder *cylinders; /* every body and obstacle */
     double *cuts;            /* where in the picture something begins or ends */
     eye_edge *edges;         /* of a column: the wall's, and those of all cylinders */
-    float *column;
+    float *piece, *part;     /* a column each */
 } eye_scratch;
 
 /* Cuts of one cylinder: both silhouettes, and a few inside each; and of the room. */

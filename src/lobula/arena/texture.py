@@ -47,7 +47,8 @@ def stripes(wall: WallParams, length_cm: float, rng: np.random.Generator) -> Flo
     greys = np.where(np.arange(count) % 2 == int(rng.integers(2)), wall.dark_grey, wall.light_grey)
     sums = np.concatenate([[0.0], np.cumsum(greys * np.diff(edges))])
     samples = np.linspace(0.0, length_cm, math.ceil(length_cm / SAMPLE_CM) + 1)
-    return np.asarray(np.diff(np.interp(samples, edges, sums)) / np.diff(samples))
+    means = np.diff(np.interp(samples, edges, sums)) / np.diff(samples)
+    return np.asarray(np.round(means, 6))  # greys as given, not what the sums made of them
 
 
 def strip_from_file(path: str | Path) -> Floats:
