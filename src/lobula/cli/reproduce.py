@@ -1,4 +1,4 @@
-"""``lobula reproduce``: the paper's figures made again, claim by claim."""
+"""``lobula reproduce``: the paper's figures and its table made again, claim by claim."""
 
 from __future__ import annotations
 
@@ -22,30 +22,45 @@ ALL = "all"
 
 @app.command()
 def reproduce(
-    what: Annotated[str, typer.Argument(metavar="WHAT", help="fig4, fig5, fig6 or all")],
+    what: Annotated[str, typer.Argument(metavar="WHAT", help="fig4, fig5, fig6, table1 or all")],
     out: Annotated[Path, typer.Option(metavar="DIR", help="folder for the figures, tables and pages")],
-    seeds: Annotated[int | None, typer.Option(metavar="N", help="repeats of every course; 10 if left out")] = None,
+    seeds: Annotated[int | None, typer.Option(metavar="N", help="repeats of everything; 10 if left out")] = None,
     quick: Annotated[bool, typer.Option("--quick", help="a look: 2 repeats if --seeds does not say otherwise")] = False,
-    preset: Annotated[str | None, typer.Option(metavar="NAME", help="paper or published; both if left out")] = None,
+    preset: Annotated[
+        str | None, typer.Option(metavar="NAME", help="paper or published; if left out both, for table1 paper")
+    ] = None,
+    minutes: Annotated[
+        float | None, typer.Option(metavar="MIN", help="table1: simulated time of each run; 60, with --quick 2")
+    ] = None,
+    first_seed: Annotated[
+        int | None, typer.Option(metavar="N", help="table1: 7001, the protocol's; with --quick 1")
+    ] = None,
+    workers: Annotated[int | None, typer.Option(metavar="N", help="table1: processes; one a core if left out")] = None,
     json: o.Json = False,
 ) -> None:
     """Run an experiment of the paper: its figure, every trial as CSV, and a page that says which claims hold."""
-    from ..experiments.paper.reproduction import FIGURES, reproduce
+    from ..experiments.paper.reproduction import FIGURES, gather, reproduce
     from ..report.axes import new_figure
     from .print_json import print_json
     from .progress import say, screen
+    from .reproduce_table import TABLE, make_table, table_plan
 
-    if what not in (*FIGURES, ALL):
+    names = [*FIGURES, TABLE]
+    if what not in (*names, ALL):
         from ..params import nearest
 
-        raise ParameterError(f"reproduce {what}{nearest(what, [*FIGURES, ALL])}")
-    plan = _plan(seeds, quick, preset)
+        raise ParameterError(f"reproduce {what}{nearest(what, [*names, ALL])}")
+    plan, chosen = _plan(seeds, quick, preset), [FIGURES[name] for name in FIGURES if what in (name, ALL)]
+    table = table_plan(seeds, quick, preset, minutes, first_seed) if what in (TABLE, ALL) else None
     new_figure(1, 1)  # says now, not after minutes, that matplotlib is missing
     _make_folder(out)
-    chosen = list(FIGURES.values()) if what == ALL else [FIGURES[what]]
-    films = sum(1 for figure in chosen for _ in figure.shots(plan))
-    with screen(films, "films") as here:
-        found = [reproduce(figure, plan, out, here.advance) for figure in chosen]
+    found = []
+    if chosen:
+        with screen(sum(1 for figure in chosen for _ in figure.shots(plan)), "films") as here:
+            found += [reproduce(figure, plan, out, here.advance) for figure in chosen]
+    if table is not None:
+        found.append(make_table(table, out, quick, workers))
+        gather(out)
     if json:
         print_json({"folder": str(out), "figures": found})
     else:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ...arena.events import EVENT_DTYPE, name_of
 
 COLUMNS: tuple[str, ...] = tuple(EVENT_DTYPE.names or ())
-"""Those of an event, in their order."""
+"""Of an event, in their order."""
 
 _CODES = ("other", "geometric_other")
 

@@ -1,0 +1,60 @@
+"""The table1 of ``lobula reproduce``: the options made into a plan, and the plan run."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import ParameterError
+
+if TYPE_CHECKING:
+    from ..experiments.closed_loop.table_jobs import TablePlan
+
+TABLE = "table1"
+PRESET = "paper"
+"""What the table is made of where nothing else is asked for."""
+
+
+def table_plan(
+    count: int | None, quick: bool, preset: str | None, minutes: float | None, first_seed: int | None
+) -> TablePlan:
+    """Return what the options ask for: the protocol's seeds and hours, or a quick look.
+
+    Raises
+    ------
+    ParameterError : a value out of range
+    """
+    from ..experiments.closed_loop import table1
+    from ..experiments.closed_loop.table_jobs import TablePlan
+    from ..model.presets import preset as named_preset
+
+    name = PRESET if preset is None else preset
+    first = table1.QUICK_FIRST_SEED if quick else table1.FIRST_SEED
+    repeats = table1.QUICK_SEEDS if quick else table1.SEEDS
+    length = table1.QUICK_MINUTES if quick else table1.MINUTES
+    length = length if minutes is None else minutes
+    if not 0 < length <= 1000:
+        raise ParameterError(f"--minutes {length:g}: must be above 0 and at most 1000")
+    return TablePlan(
+        presets={name: named_preset(name)},
+        seeds=table1.seeds(first if first_seed is None else first_seed, repeats if count is None else count),
+        minutes=length,
+    )
+
+
+def make_table(plan: TablePlan, folder: Path, quick: bool, workers: int | None) -> dict[str, Any]:
+    """Run ``plan`` and write its files into ``folder``; interrupted, say how to go on."""
+    from ..experiments.closed_loop.table1 import make
+    from ..runtime.interrupts import Interrupted
+    from .progress import say, screen
+
+    with screen(plan.job_count, "runs of the arena") as here:
+        try:
+            return make(
+                plan, folder, quick=quick, workers=os.cpu_count() or 1 if workers is None else workers,
+                advance=here.advance,
+            )  # fmt: skip
+        except Interrupted:
+            say(f"lobula: what is finished lies in {folder}; the same command goes on from there")
+            raise
