@@ -21,11 +21,11 @@ typedef struct {
 } call;
 
 static int warming_up(const lobula_state *s, double time_s) {
-    return (time_s - s->now.started_s) * 1000.0 < s->params.decision.warm_up_ms;
+    return (time_s - s->now.started_s) * 1000.0 < s->params.decision.warm_up_ms - SLACK_MS;
 }
 
 static int after_turn(const lobula_state *s, double time_s) {
-    return s->now.has_turned && (time_s - s->now.turned_s) * 1000.0 <= s->params.decision.after_turn_ms;
+    return s->now.has_turned && (time_s - s->now.turned_s) * 1000.0 <= s->params.decision.after_turn_ms + SLACK_MS;
 }
 
 static void note_turning(lobula_state *s, double time_s, int turning) {

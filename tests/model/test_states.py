@@ -9,6 +9,7 @@ from lobula.model.network import ReferenceNetwork
 from lobula.model.presets import preset
 
 from .movies import approach, collisions, noisy, run, stamps, states
+from .stamps import HABITS, written
 
 PUBLISHED = preset("published")
 PRESETS = pytest.mark.parametrize("name", ["published", "paper"])
@@ -24,6 +25,16 @@ def scene(count):
 def test_warming_up_for_200_ms():
     assert states(run(PUBLISHED, scene(9), stamps(9))) == ["warming_up"] * 6 + ["ok"] * 3
     assert states(run(PUBLISHED, scene(6), stamps(6, 15))) == ["warming_up"] * 3 + ["ok"] * 3
+
+
+@pytest.mark.parametrize("habit", HABITS)
+@pytest.mark.parametrize(
+    ("hz", "warm", "turning"), [(10, 2, 1), (15, 3, 2), (20, 4, 2), (25, 5, 2), (30, 6, 3), (60, 12, 5)]
+)
+def test_the_rounding_of_stamps_changes_no_state(hz, warm, turning, habit):
+    """Frames in less than 200 ms; the frame that turns, and those up to 67 ms after it."""
+    told = states(run(PUBLISHED, scene(30), written(hz, 30, habit), [k == 15 for k in range(30)]))
+    assert told == ["warming_up"] * warm + ["ok"] * (15 - warm) + ["turning"] * turning + ["ok"] * (15 - turning)
 
 
 def test_flash_is_told_where_the_light_changes():
@@ -90,7 +101,7 @@ def test_turning_lets_a_collision_end_by_itself():
     turns = [k > first for k in range(len(movie))]
     seen = collisions(run(PUBLISHED, movie.images, movie.times_s, turns))
     assert seen[0] == first
-    assert first + 5 <= seen[-1] <= first + 6  # 200 ms; whether the sixth frame counts is rounding
+    assert seen[-1] == first + 5  # at the sixth frame 200 ms are over
 
 
 def test_after_a_turn_the_window_is_empty():

@@ -102,7 +102,7 @@ class Oracle:
         self.change, self.lamina, self.adapted = change, lamina, adapted
         reading = {**self.u, "lptc_r": right, "lptc_l": left}
         self.spikes = tuple(spike_count(u, 0.7 if name in LGMDS else 0.2) for name, u in reading.items())
-        if time_s - self.start_s >= self.warm_up_s:
+        if time_s - self.start_s >= self.warm_up_s - 0.001:
             self.history.append((time_s, self.spikes, ticks))
         self.collision = decide(self.history, time_s, self.neurons)
         return reading

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from ..params import Params
 from ..types import Image, Reading, Spikes, State
-from .clock import Beat, Clock, ClockParams
+from .clock import SLACK_MS, Beat, Clock, ClockParams
 from .decision import Decision, DecisionParams
 from .lamina import Lamina, LaminaParams, OnOff
 from .lamina.on_off import split_on_off
@@ -136,10 +136,12 @@ class ReferenceNetwork:
         return self._reading(time_s, spikes, turning, {name: maps[name] for name in taps})
 
     def _warming_up(self, time_s: float) -> bool:
-        return (time_s - self.started_s) * 1000.0 < self.p.decision.warm_up_ms
+        return (time_s - self.started_s) * 1000.0 < self.p.decision.warm_up_ms - SLACK_MS
 
     def _turning(self, time_s: float) -> bool:
-        return self.turned_s is not None and (time_s - self.turned_s) * 1000.0 <= self.p.decision.after_turn_ms
+        if self.turned_s is None:
+            return False
+        return (time_s - self.turned_s) * 1000.0 <= self.p.decision.after_turn_ms + SLACK_MS
 
     def _reading(self, time_s: float, spikes: Spikes, turning: bool, taps: dict[str, Image]) -> Reading:
         state: State = "ok"

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from ..engine.network import Network
 from ..errors import ParameterError
 from ..frames.source import FrameSource
+from ..model.clock import SLACK_MS
 from ..model.decision import Decision, Entry
 from ..model.network import TAPS, NetworkParams
 from ..types import Frame, Image, Reading
@@ -156,5 +157,5 @@ def _since(time_s: float, begun_s: float, span_ms: float, name: str, what: str, 
     passed_ms = (time_s - begun_s) * 1000.0
     if math.isnan(passed_ms):
         return Condition(name, True, "the camera has not turned")
-    holds = passed_ms >= span_ms if at_once else passed_ms > span_ms
+    holds = passed_ms >= span_ms - SLACK_MS if at_once else passed_ms > span_ms + SLACK_MS
     return Condition(name, holds, f"{passed_ms:.0f} ms since {what}, {span_ms:g} are needed")
