@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
-from ..errors import LobulaError, OutputError
+from .._version import __version__
+from ..errors import LobulaError, ParameterError
 from . import options as o
 from .call import new_app
+from .counted import counted
 
 if TYPE_CHECKING:
     from ..arena.running import Run
+    from .arena_saves import Shown
     from .progress import Screen
 
 app = new_app()
-
-
-SAVED_AS = (".npz",)
-"""What --save can write."""
 
 
 class Ended(NamedTuple):
@@ -43,7 +42,17 @@ def arena(
     settings: o.Settings = None,
     sensitivity: o.Sensitivity = None,
     engine: o.Engine = "auto",
-    save: Annotated[Path | None, typer.Option(metavar="FILE.npz", help="the replay: every frame of the run")] = None,
+    save: Annotated[
+        list[Path] | None,
+        typer.Option(metavar="FILE.npz|mp4|png", help="the replay, a film or a picture of the run; may be repeated"),
+    ] = None,
+    replay: Annotated[Path | None, typer.Option(metavar="FILE.npz", help="draw a saved run; nothing runs")] = None,
+    robot: Annotated[int | None, typer.Option(metavar="N", help="film: whose own view; 0 if left out")] = None,
+    start: Annotated[float | None, typer.Option(metavar="S", help="film or picture: from this time of the run")] = None,
+    end: Annotated[float | None, typer.Option(metavar="S", help="film or picture: to this time")] = None,
+    speed: Annotated[
+        float | None, typer.Option(metavar="X", help="film: times as fast; else as makes it 3 minutes at most")
+    ] = None,
     events: Annotated[Path | None, typer.Option(metavar="FILE.csv", help="each contact and avoidance, a row")] = None,
     checkpoint: Annotated[
         Path | None,
@@ -58,40 +67,58 @@ def arena(
     """
     from ..arena.network_controller import NetworkController
     from ..arena.snapshot import load_snapshot
-    from ..arena.world_file import load_world
+    from ..arena.world import World
+    from ..arena.world_file import load_world, parse_world
     from ..runtime.interrupts import Interrupted
+    from .arena_saves import Shown, check_saves
     from .arena_text import as_text, record, refusal
-    from .destinations import check_ending, check_files
+    from .destinations import check_files
     from .progress import say, screen
     from .settings import choose
 
     try:
-        if save is not None:
-            check_ending("--save", save, SAVED_AS)
-        files = {"--save": save, "--events": events, "--checkpoint": checkpoint}
-        check_files(files, {"world file": world, "settings file": config})
+        saves = save or []
+        outputs: list[Path | None] = [*saves] or [None]
+        for path in outputs:
+            check_files(
+                {"--save": path, "--events": events, "--checkpoint": checkpoint},
+                {"world file": world, "settings file": config, "replay": replay},
+            )
         chosen = choose(preset, neurons, config, settings or (), sensitivity)
+        shown = Shown(robot, start, end, speed, chosen.params)
+        if replay is not None:
+            _refuse({"--robots": robots, "--minutes": minutes, "--seed": seed, "--world": world,
+                     "--checkpoint": checkpoint, "--events": events})  # fmt: skip
+            preset_known = all(given is None for given in (preset, neurons, config, settings, sensitivity))
+            return _replay(replay, saves, shown._replace(params=None) if preset_known else shown, json)
+        there = None if world is None else load_world(world)
         kept = load_snapshot(checkpoint) if checkpoint is not None and checkpoint.exists() else None
         request: dict[str, Any] = {
-            "world": None if world is None else load_world(world),
+            "world": there,
             "controller": NetworkController(chosen.params, engine=engine),
             "robots": robots,
             "minutes": minutes,
             "seed": seed,
-            "record": save is not None,
+            "record": bool(saves),
             "checkpoint": checkpoint,
             "resume": kept,
             "engine": engine,
         }
         length = (kept or {}).get("minutes", 60.0) if minutes is None else minutes
+        plan = there or (parse_world(kept["world"], "checkpoint") if kept and "world" in kept else World())
+        rate_hz = plan.camera.rate_hz
+        check_saves(saves, shown, robots or plan.robots.count, round(60 * length * rate_hz), rate_hz)
         with screen(round(60 * length), "simulated seconds") as here:
             ended = _run(request, here)
     except (LobulaError, Interrupted) as error:
         if json:
             print(refusal(error), flush=True)
         raise
-    failure = _write(ended.run, save, events) or ended.failure
-    print(record(ended.run, chosen, failure) if json else as_text(ended.run), flush=True)
+    if saves and ended.code:
+        say(f"lobula: interrupted after {ended.run.minutes:.2f} simulated minutes; saving, Ctrl-C again ends that too")
+    said, failure = _write(ended.run, saves, shown, events)
+    failure = failure or ended.failure
+    print(record(ended.run, chosen, failure, said) if json else as_text(ended.run), flush=True)
     if failure is not None:
         raise failure
     if ended.code:
@@ -128,17 +155,47 @@ def _along(here: Screen) -> Callable[[float, float], None] | None:
     return progress
 
 
-def _write(done: Run, save: Path | None, events: Path | None) -> LobulaError | None:
-    """Write what was asked for; return what went wrong, to be raised when the run has been reported."""
+def _write(
+    done: Run, saves: list[Path], shown: Shown, events: Path | None
+) -> tuple[dict[str, Any], LobulaError | None]:
+    """Write what was asked for; return what there is to say of it, and what went wrong, for after the report."""
     from ..experiments.closed_loop.event_rows import event_lines
     from ..report.landing import whole_file
+    from .arena_saves import write_saves
 
+    said: dict[str, Any] = {}
     try:
-        if save is not None and done.record is not None:
-            done.record.save(save)
         if events is not None:
             with whole_file(events) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
                 file.writelines(event_lines(done.events))
-    except OutputError as error:
-        return error
-    return None
+        if saves and done.record is not None:
+            said = write_saves(done.record, saves, shown)
+    except LobulaError as error:
+        return said, error
+    return said, None
+
+
+def _refuse(given: dict[str, Any]) -> None:
+    for option, value in given.items():
+        if value is not None:
+            raise ParameterError(f"{option} {value}: a --replay holds its own run: must be left out")
+
+
+def _replay(path: Path, saves: list[Path], shown: Shown, json: bool) -> int:
+    """Draw a saved run."""
+    from ..arena.record import load_record
+    from .arena_saves import REPLAY, check_saves, write_saves
+    from .print_json import print_json
+    from .progress import say
+
+    if not saves or any(save.suffix.lower() == REPLAY for save in saves):
+        raise ParameterError(f"--replay {path}: draws a run: must go with --save FILE.mp4 or --save FILE.png")
+    record = load_record(path)
+    frames, count = record.poses.shape[:2]
+    check_saves(saves, shown, count, frames, record.world.camera.rate_hz)
+    said = write_saves(record, saves, shown)
+    if json:
+        print_json({"version": __version__, "replay": str(path), "seed": record.seed, **said})
+    else:
+        say(f"{', '.join(said['saved'])}: {counted(count, 'robot')}, seed {record.seed}")
+    return 0

@@ -40,8 +40,11 @@ def as_text(done: Run) -> str:
     )
 
 
-def record(done: Run, chosen: Chosen, failure: Exception | None) -> str:
-    """Return the run in one line of JSON: where it came from, the score, and the time each part took."""
+def record(done: Run, chosen: Chosen, failure: Exception | None, said: dict[str, Any] | None = None) -> str:
+    """Return the run in one line of JSON: where it came from, the score, and the time each part took.
+
+    ``said`` tells what else was written.
+    """
     from ..arena.world import world_hash
     from ..params import settings_hash
 
@@ -62,6 +65,7 @@ def record(done: Run, chosen: Chosen, failure: Exception | None) -> str:
             **done.score.as_dict(),
             "robot_frames": done.robot_frames,
             "seconds": {part: round(spent, 3) for part, spent in done.seconds.items()},
+            **(said or {}),
         },
         allow_nan=False,
     )

@@ -35,8 +35,8 @@ LONGEST_S = 180.0
 """A film whose speed is not asked for is no longer than this."""
 
 MOST_FPS = 30.0
-SPEEDS = (1 / 64, 1000.0)
-_BATCH = 64
+SPEEDS = (1 / 64, 256.0)
+_BATCH = 4
 
 
 class Film(NamedTuple):
@@ -50,8 +50,7 @@ class Film(NamedTuple):
 
 def save_film(
     record: Record, path: str | Path, *, robot: int = 0, start_s: float | None = None, end_s: float | None = None,
-    speed: float | None = None, params: NetworkParams | None = None,
-    progress: Callable[[float, float], None] | None = None,
+    speed: float | None = None, params: NetworkParams | None = None, advance: Callable[[], None] | None = None,
 ) -> Film:  # fmt: skip
     """Write ``path``, an MP4 that browsers play: the arena from above, and the view and potentials of ``robot``.
 
@@ -61,7 +60,7 @@ def save_film(
     speed : times as fast as the run; 1, or the power of two that makes a long run a film of three minutes at most
     params : settings of the network, for thresholds and spikes; found among the presets where nothing is given. With
         other settings the thresholds are the paper's
-    progress : called with the frames done and all there are
+    advance : called after each picture
 
     Raises
     ------
@@ -74,29 +73,40 @@ def save_film(
     robots = record.poses.shape[1]
     if not 0 <= robot < robots:
         raise ParameterError(f"robot {robot}: must be one of 0..{robots - 1}")
-    part = _part(record, start_s, end_s)
-    rate = record.world.camera.rate_hz
-    speed = _fitting(len(part) / rate) if speed is None else speed
-    if not SPEEDS[0] <= speed <= SPEEDS[1]:
-        raise ParameterError(f"speed {speed!r}: must be from 1/64 to {SPEEDS[1]:g}")
-    every = max(1, math.ceil(rate * speed / MOST_FPS - 1e-9))
-    shown = list(part[::every])
+    rate_hz = record.world.camera.rate_hz
+    frames, speed = frames_of(len(record.poses), rate_hz, start_s=start_s, end_s=end_s, speed=speed)
     known = _preset_of(record)
     params = params or (known and known[1])
     own = Own(robot, _readings(record, robot, params), thresholds(params or preset("paper")), _log(record, robot))
-    fps = rate * speed / every
+    fps = rate_hz * speed / frames.step
     about = {"seed": record.seed, "controller": record.controller, "robot": robot, "speed": speed}
     video = ArenaVideo(path, tell(record), own, speed=speed, fps=fps, about=about)
     try:
-        for done, (frame, image) in enumerate(_pictures(record, robot, shown), 1):
+        for frame, image in _pictures(record, robot, frames):
             video.frame(frame, image)
-            if progress:
-                progress(done, len(shown))
+            if advance:
+                advance()
     except BaseException:  # Ctrl-C too: the part stays and plays
         video.abandon()
         raise
     video.finish()
-    return Film(path, len(shown), len(shown) / fps, speed)
+    return Film(path, len(frames), len(frames) / fps, speed)
+
+
+def frames_of(
+    count: int, rate_hz: float, *, start_s: float | None = None, end_s: float | None = None, speed: float | None = None
+) -> tuple[range, float]:
+    """Return which of a run's ``count`` frames a film shows, and how many times as fast; as for ``save_film``.
+
+    Raises
+    ------
+    ParameterError : an empty part, a speed out of range
+    """
+    part = _part(count, rate_hz, start_s, end_s)
+    speed = _fitting(len(part) / rate_hz) if speed is None else speed
+    if not SPEEDS[0] <= speed <= SPEEDS[1]:
+        raise ParameterError(f"speed {speed!r}: must be from 1/64 to {SPEEDS[1]:g} times as fast as the run")
+    return part[:: max(1, math.ceil(rate_hz * speed / MOST_FPS - 1e-9))], speed
 
 
 def save_still(record: Record, path: str | Path, *, start_s: float | None = None, end_s: float | None = None) -> None:
@@ -109,7 +119,7 @@ def save_still(record: Record, path: str | Path, *, start_s: float | None = None
     """
     if Path(path).suffix.lower() != ".png":
         raise ParameterError(f"picture {path}: must end in .png")
-    part = _part(record, start_s, end_s)
+    part = _part(len(record.poses), record.world.camera.rate_hz, start_s, end_s)
     write_still(path, tell(record, part))
 
 
@@ -136,12 +146,12 @@ def tell(record: Record, part: range | None = None) -> Tale:
     return Tale(plan, course, _marks(record, events, part.start), title, _scores(events))
 
 
-def _part(record: Record, start_s: float | None, end_s: float | None) -> range:
-    rate, count = record.world.camera.rate_hz, len(record.poses)
-    first = 0 if start_s is None else math.ceil(start_s * rate - 1e-6)
-    last = count if end_s is None else min(count, math.ceil(end_s * rate - 1e-6))
+def _part(count: int, rate_hz: float, start_s: float | None, end_s: float | None) -> range:
+    first = 0 if start_s is None else math.ceil(start_s * rate_hz - 1e-6)
+    last = count if end_s is None else min(count, math.ceil(end_s * rate_hz - 1e-6))
     if not 0 <= first < last:
-        raise ParameterError(f"from {start_s} to {end_s} s: must be a part of the run, 0..{count / rate:g} s")
+        of = " to ".join("its end" if end is None else f"{end:g} s" for end in (start_s or 0.0, end_s))
+        raise ParameterError(f"from {of}: must be a part of the run, 0 to {count / rate_hz:g} s")
     return range(first, last)
 
 
@@ -149,18 +159,12 @@ def _fitting(length_s: float) -> float:
     return 2.0 ** max(0, math.ceil(math.log2(length_s / LONGEST_S)))
 
 
-def _pictures(record: Record, robot: int, frames: list[int]) -> Iterator[tuple[int, NDArray[np.uint8]]]:
-    """Draw again what the robot saw in each of ``frames``, a batch at a time."""
-    every = frames[1] - frames[0] if len(frames) > 1 else 1
+def _pictures(record: Record, robot: int, frames: range) -> Iterator[tuple[int, NDArray[np.uint8]]]:
+    """Draw again what the robot saw in each of ``frames``; a few in one go, those between them too."""
     for at in range(0, len(frames), _BATCH):
         batch = frames[at : at + _BATCH]
-        # all frames between would be drawn for nothing
-        images = record.views(robot, batch[0], batch[-1] + 1) if every == 1 else _views(record, robot, batch)
+        images = record.views(robot, batch[0], batch[-1] + 1)[:: frames.step]
         yield from zip(batch, images, strict=True)
-
-
-def _views(record: Record, robot: int, frames: list[int]) -> list[NDArray[np.uint8]]:
-    return [record.views(robot, frame, frame + 1)[0] for frame in frames]
 
 
 def _preset_of(record: Record) -> tuple[str, NetworkParams] | None:

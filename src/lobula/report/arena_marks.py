@@ -35,8 +35,8 @@ def draw_mark(canvas: Canvas, kind: str, row: float, column: float, share: float
     top, left = round(row) - _REACH, round(column) - _REACH
     size = 2 * _REACH + 1
     height, width = canvas.shape[:2]
-    rows = slice(max(top, 0), max(min(top + size, height), 0))
-    columns = slice(max(left, 0), max(min(left + size, width), 0))
+    rows = slice(min(max(top, 0), height), min(max(top + size, 0), height))
+    columns = slice(min(max(left, 0), width), min(max(left + size, 0), width))
     part = canvas[rows, columns]
     inner = slice(rows.start - top, rows.stop - top), slice(columns.start - left, columns.stop - left)
     outline, shape = _inks(kind)

@@ -1,0 +1,63 @@
+"""``lobula arena --save`` a film and a picture, and ``--replay``."""
+
+from __future__ import annotations
+
+import av
+import pytest
+
+SHORT = ("arena", "--minutes", "0.05", "--seed", "5")
+
+
+def frames_in(path):
+    with av.open(str(path)) as film:
+        return sum(1 for packet in film.demux(video=0) if packet.size)
+
+
+def test_replay_film_and_picture_of_one_run(call, tmp_path):
+    done = call(*SHORT, "--save", "r.npz", "--save", "r.mp4", "--save", "r.png", "--speed", "2", "--json")
+    assert done.code == 0
+    (record,) = done.records
+    assert record["saved"] == ["r.npz", "r.mp4", "r.png"]
+    assert record["film"] == {"frames": 45, "duration_s": 1.5, "speed": 2.0}
+    assert frames_in(tmp_path / "r.mp4") == 45
+
+    again = call("arena", "--replay", "r.npz", "--save", "again.mp4", "--robot", "3", "--start", "1", "--end", "1.5")
+    assert again.code == 0
+    assert frames_in(tmp_path / "again.mp4") == 15
+    call("arena", "--replay", "r.npz", "--save", "again.png")
+    assert (tmp_path / "again.png").read_bytes() == (tmp_path / "r.png").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (("--save", "r.avi"), "--save r.avi: must end in .npz, .mp4, .png"),
+        (("--save", "a.mp4", "--save", "b.mp4"), "must be one file of a kind"),
+        (("--save", "r.mp4", "--robot", "4"), "--robot 4: must be one of 0..3"),
+        (("--save", "r.mp4", "--robots", "7", "--robot", "7"), "--robot 7: must be one of 0..6"),
+        (("--save", "r.npz", "--robot", "1"), "--robot 1: goes with --save FILE.mp4"),
+        (("--start", "1"), "--start 1.0: goes with --save FILE.mp4 or FILE.png"),
+        (("--save", "r.mp4", "--start", "9"), "from 9 s to its end: must be a part of the run, 0 to 3 s"),
+        (("--save", "r.mp4", "--speed", "-1"), "speed -1.0: must be from 1/64 to 256"),
+        (("--replay", "none.npz", "--save", "r.mp4"), "a --replay holds its own run"),
+    ],
+)
+def test_refused_before_anything_runs(call, tmp_path, options, words):
+    done = call(*SHORT, *options)
+    assert (done.code, done.out) == (2, "")
+    assert words in done.err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ((), "draws a run: must go with --save FILE.mp4 or --save FILE.png"),
+        (("--save", "copy.npz"), "draws a run"),
+        (("--save", "r.mp4"), "none.npz: cannot be read"),
+    ],
+)
+def test_replays_that_cannot_be(call, options, words):
+    done = call("arena", "--replay", "none.npz", *options)
+    assert done.code == 2
+    assert words in done.err
