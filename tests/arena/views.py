@@ -44,7 +44,7 @@ def mirrored(scene: Scene) -> Scene:
     """Return the same scene seen in a mirror along the y axis of its room."""
     width, _ = scene.size_cm
     strip = scene.wall_grey[::-1]
-    # a strip starts at the lower left corner, mirrored at the lower right one; or at heading 0, mirrored at the other end
+    # a strip starts at the lower left corner, mirrored at the lower right one; or at heading 0, then at 180
     share = width / (2 * sum(scene.size_cm)) if scene.shape == "box" else 0.5
     turned = [replace(c, around_grey=c.around_grey[::-1]) for c in (scene.body, *scene.obstacles)]
     return replace(
