@@ -50,7 +50,7 @@ def plot_trade(
         axes.set_ylim(bottom=0)
     grid[0].set_ylabel(y, color=LIGHT.text, fontsize=9)
     handles = dict(pair for axes in grid for pair in zip(*axes.get_legend_handles_labels()[::-1], strict=True))
-    figure.legend(handles.values(), handles.keys(), loc="outside lower left", ncols=min(len(handles), 5),
+    figure.legend(handles.values(), handles.keys(), loc="outside lower left", ncols=min(len(handles), 3 * len(panels)),
                   frameon=False, fontsize=8.5, labelcolor=LIGHT.text)  # fmt: skip
     if title:
         figure.suptitle(title, x=0.012, ha="left", fontsize=9, color=LIGHT.dim)
