@@ -61,6 +61,10 @@ class Scorer:
         """The events so far, (N,) EVENT_DTYPE, in the order they came."""
         return event_table(self._rows)
 
+    def newest(self, number: int) -> NDArray[Any]:
+        """Return the last ``number`` events."""
+        return event_table(self._rows[len(self._rows) - number :])
+
     def score(self) -> Score:
         """Return the score so far."""
         robots, driven_cm = len(self.simulation.pose), float(self.simulation.robots["distance_cm"].sum())
