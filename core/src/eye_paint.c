@@ -22,6 +22,7 @@ static double area(double t, double d) { return t <= 0 ? 0 : t < d ? 0.5 * t * t
 /* How much of row y lies below the edge. */
 static double below(const eye_edge *e, int y) {
     double t = y - e->low, d = e->high - e->low;
+    if (t <= 0 && e->high <= y + 1) return y + 1 - 0.5 * (e->low + e->high); /* all of it in this row, as most are */
     if (d < 1e-6) return t + 1 < 0 ? 0 : t + 1 > 1 ? 1 : t + 1;
     return (area(t + 1, d) - area(t, d)) / d;
 }

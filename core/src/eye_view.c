@@ -15,7 +15,7 @@
 typedef struct {
     const lobula_eye_scene *scene;
     const lobula_eye_camera *camera;
-    double middle_x, middle_y;
+    double middle_x, middle_y, per_px;
     float light;
     eye_pupil pupil;
     eye_surface wall[4];
@@ -28,7 +28,7 @@ typedef struct {
     eye_hit met_hit;
 } eye_state;
 
-static double ray_at(const eye_state *e, double u) { return (u - e->middle_x) / e->camera->focal_px; }
+static double ray_at(const eye_state *e, double u) { return (u - e->middle_x) * e->per_px; }
 
 static double column_of(const eye_state *e, double s) { return e->middle_x + s * e->camera->focal_px; }
 
@@ -230,7 +230,7 @@ static void paint_column(eye_state *e, const eye_scratch *k, int x, int *cut, fl
 void eye_view(const lobula_eye_scene *scene, const lobula_eye_camera *camera, const eye_moment *moment,
               const eye_scratch *scratch, float *columns) {
     eye_state e = {.scene = scene, .camera = camera, .light = (float)moment->light,
-                   .middle_x = 0.5 * camera->width, .middle_y = 0.5 * camera->height,
+                   .middle_x = 0.5 * camera->width, .middle_y = 0.5 * camera->height, .per_px = 1 / camera->focal_px,
                    .pupil = pupil_at(scene, moment->camera, camera->ahead_cm)};
     e.strip = moment->wall_pattern && scene->wall.samples > 0 ? &scene->wall : NULL;
     e.wall_grey = eye_strip_grey(&scene->wall);
