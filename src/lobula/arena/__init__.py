@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .controller import Controller, ControllerError
     from .controls import AlwaysTurn, NeverTurn, RandomTurn
+    from .each_robot import EachRobot
     from .eye import Eye
     from .network_controller import NetworkController
     from .record import Record, load_record
@@ -30,6 +31,7 @@ __all__ = [
     "AlwaysTurn",
     "Controller",
     "ControllerError",
+    "EachRobot",
     "Eye",
     "NetworkController",
     "NeverTurn",
@@ -52,6 +54,7 @@ _HOMES = {
     "AlwaysTurn": "controls",
     "Controller": "controller",
     "ControllerError": "controller",
+    "EachRobot": "each_robot",
     "Eye": "eye",
     "NetworkController": "network_controller",
     "NeverTurn": "controls",

@@ -82,6 +82,24 @@ def keeps_state(controller: Controller) -> TypeGuard[KeepsState]:
     return isinstance(controller, KeepsState)
 
 
+def require_controller(controller: Any) -> None:
+    """Check that it is one.
+
+    Raises
+    ------
+    ControllerError : a class instead of an object, or a method missing
+    """
+    if isinstance(controller, type):
+        name = controller.__name__
+        raise ControllerError(f"controller {name}: is a class: must be an object, {name}()")
+    missing = [name for name in ("start", "step") if not callable(getattr(controller, name, None))]
+    if missing:
+        raise ControllerError(
+            f"controller {type(controller).__name__}: has no {'() and no '.join(missing)}(): must have "
+            "start(robots, rng) and step(images, time_s, turning); a detector for one camera goes into EachRobot"
+        )
+
+
 def decide(controller: Controller, images: NDArray[np.uint8], time_s: float, turning: Bools, tick: int) -> Bools:
     """Return the controller's decisions (R,), checked.
 

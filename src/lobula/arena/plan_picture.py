@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,13 +37,21 @@ def plan_picture(
         _lay(picture, (post.radius_cm - np.hypot(x - post.x_cm, y - post.y_cm)) * px_per_cm, _POST)
     radius, half = world.body.radius_cm, math.radians(world.camera.fov_deg / 2)
     for (at_x, at_y, heading), turns in zip(poses.tolist(), turning.tolist(), strict=True):
-        from_centre = np.hypot(x - at_x, y - at_y)
-        _lay(picture, (radius - from_centre) * px_per_cm, _TURNING if turns else _ROBOT)
+        part = _near(x[0], at_x, radius), _near(y[:, 0], at_y, radius)
+        right, up = x[:, part[0]] - at_x, y[part[1]] - at_y
+        from_centre = np.hypot(right, up)
+        body = picture[part[1], part[0]]
+        _lay(body, (radius - from_centre) * px_per_cm, _TURNING if turns else _ROBOT)
         # a slice of the disc, as wide as the field of view
-        aside = np.abs(np.remainder(np.arctan2(y - at_y, x - at_x) - heading + np.pi, 2 * np.pi) - np.pi)
-        slice_px = np.minimum(radius - from_centre, from_centre * (half - aside)) * px_per_cm
-        _lay(picture, slice_px, _NOSE)
+        aside = np.abs(np.remainder(np.arctan2(up, right) - heading + np.pi, 2 * np.pi) - np.pi)
+        _lay(body, np.minimum(radius - from_centre, from_centre * (half - aside)) * px_per_cm, _NOSE)
     return np.rint(picture).astype(np.uint8)
+
+
+def _near(places_cm: NDArray[np.floating[Any]], middle_cm: float, reach_cm: float) -> slice:
+    """Return which pixels a disc can touch."""
+    near = np.flatnonzero(np.abs(places_cm - middle_cm) < 1.1 * reach_cm)
+    return slice(int(near[0]), int(near[-1]) + 1) if near.size else slice(0, 0)
 
 
 def _lay(picture: NDArray[np.float64], inside_px: NDArray[np.float64], colour: tuple[int, int, int]) -> None:

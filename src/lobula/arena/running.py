@@ -15,6 +15,7 @@ from ..errors import OutputError, ParameterError
 from ..params import Params, settings_hash
 from ..runtime.interrupts import Interrupted, Interrupts
 from .controller import Controller, ControllerError, keeps_state
+from .each_robot import EachRobot
 from .network_controller import NetworkController
 from .record import Record, Recorder
 from .scorer import Scorer
@@ -243,4 +244,5 @@ class Course:
 def _in_words(controller: Controller) -> str:
     """Return the controller's kind, and the hash of its settings where it has some."""
     params = getattr(controller, "params", None)
-    return type(controller).__name__ + (f" {settings_hash(params)}" if isinstance(params, Params) else "")
+    name = controller.name if isinstance(controller, EachRobot) else type(controller).__name__
+    return name + (f" {settings_hash(params)}" if isinstance(params, Params) else "")

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..errors import ParameterError
 from .chance import Chance
 from .contact import Contact, Episodes, Surroundings
-from .controller import Bools, Controller, ControllerError, KeepsState, decide, keeps_state
+from .controller import Bools, Controller, ControllerError, KeepsState, decide, keeps_state, require_controller
 from .exposure import Exposure
 from .eye import Eye
 from .history import History, Past
@@ -78,7 +78,7 @@ class Simulation:
     Raises
     ------
     ParameterError : a world with no room for its robots, poses outside the room, a seed that is none
-    ControllerError : the controller does not start
+    ControllerError : the controller is none, or does not start
     """
 
     def __init__(
@@ -91,6 +91,7 @@ class Simulation:
         engine: str = "auto",
         eye: Views | None = None,
     ) -> None:
+        require_controller(controller)
         self.world, self.controller, self.seed = world, controller, seed
         count = world.robots.count
         self.chance = Chance(seed, count)
