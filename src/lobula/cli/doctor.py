@@ -18,6 +18,7 @@ app = new_app()
 EXTRAS = {
     "plot": (("matplotlib",), "figures, as of lobula plot"),
     "parquet": (("pyarrow",), "traces in .parquet"),
+    "opencv": (("cv2",), "lobula track, robots seen from above"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

@@ -82,7 +82,7 @@ def manoeuvres(motion: Motion, times_s: Floats, params: ManoeuvreParams) -> list
             turning = standing & (np.abs(rate) > math.radians(params.turning_deg_s))
         free_from = 0
         for first, last in _runs(turning):
-            angle = float(np.trapezoid(rate[first : last + 1], times_s[first : last + 1]))
+            angle = float(np.nansum(rate[first : last + 1] * np.gradient(times_s)[first : last + 1]))
             if abs(angle) < math.radians(params.least_turn_deg):
                 continue
             start = first
