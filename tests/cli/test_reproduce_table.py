@@ -49,6 +49,7 @@ def test_a_signal_stops_all_workers_and_nothing_is_lost(spawn, tmp_path, number,
         (("--seeds", "0"), "--seeds 0: must be 1 to 500"),
         (("--first-seed", "-1"), "--first-seed -1: must be 0 or more"),
         (("--preset", "papre"), "papre"),
+        (("--first-seed", "7001"), "--quick with seeds 7001 to 7002: must not use 7000 to 7999"),
         (("--workers", "0"), "workers = 0: must be 1 to"),
     ],
 )

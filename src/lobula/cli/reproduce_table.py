@@ -27,6 +27,7 @@ def table_plan(
     """
     from ..experiments.closed_loop import table1
     from ..experiments.closed_loop.table_jobs import TablePlan
+    from ..experiments.closed_loop.table_page import TEST_SEEDS
     from ..model.presets import preset as named_preset
 
     name = PRESET if preset is None else preset
@@ -36,11 +37,12 @@ def table_plan(
     length = length if minutes is None else minutes
     if not 0 < length <= 1000:
         raise ParameterError(f"--minutes {length:g}: must be above 0 and at most 1000")
-    return TablePlan(
-        presets={name: named_preset(name)},
-        seeds=table1.seeds(first if first_seed is None else first_seed, repeats if count is None else count),
-        minutes=length,
-    )
+    seeds = table1.seeds(first if first_seed is None else first_seed, repeats if count is None else count)
+    if quick and any(seed in TEST_SEEDS for seed in seeds):
+        raise ParameterError(
+            f"--quick with seeds {seeds[0]} to {seeds[-1]}: must not use 7000 to 7999, kept for the table"
+        )
+    return TablePlan(presets={name: named_preset(name)}, seeds=seeds, minutes=length)
 
 
 def make_table(plan: TablePlan, folder: Path, quick: bool, workers: int | None) -> dict[str, Any]:

@@ -67,7 +67,8 @@ def test_what_is_finished_is_not_done_again(one_worker, tmp_path, monkeypatch):
     assert all(map(same, one_worker, again))
 
 
-def test_interrupted_in_the_middle_of_a_job_it_ends_the_same(one_worker, tmp_path, monkeypatch):
+@pytest.mark.parametrize("number", [0, 2])
+def test_interrupted_in_the_middle_of_a_job_it_ends_the_same(one_worker, tmp_path, monkeypatch, number):
     real = running.Course.tick
 
     def tick(self, progress):
@@ -77,12 +78,12 @@ def test_interrupted_in_the_middle_of_a_job_it_ends_the_same(one_worker, tmp_pat
 
     monkeypatch.setattr(running.Course, "tick", tick)
     with pytest.raises(Interrupted, match="SIGTERM") as stopped:
-        run_jobs(JOBS[:1], tmp_path)
+        run_jobs([JOBS[number]], tmp_path)
     assert stopped.value.exit_code == 143
     assert [path.suffix for path in tmp_path.iterdir()] == [".checkpoint"]
     monkeypatch.undo()
-    (found,) = run_jobs(JOBS[:1], tmp_path)
-    assert same(found, one_worker[0])
+    (found,) = run_jobs([JOBS[number]], tmp_path)
+    assert same(found, one_worker[number])
     assert [path.suffix for path in tmp_path.iterdir()] == [".npz"]
 
 

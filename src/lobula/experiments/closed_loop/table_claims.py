@@ -20,8 +20,8 @@ WITHIN_POINTS = 5.0
 RULE = (
     "Every condition is a number that is above 0 where the paper is right, with a 95 % interval by bootstrap over the "
     "seeds; models that are compared are paired by seed. A condition is *right* if the interval lies above 0, *wrong* "
-    "if below, else *unclear*. A claim *holds* if all its conditions are right, holds *in part* if some are; it *does "
-    "not hold* if none is right and at least one is wrong; with unclear ones only it is *undecided*. "
+    "if below, else *unclear*. A claim *holds* if all its conditions are right; it *does not hold* if more are wrong "
+    "than right; otherwise it holds *in part*, or, with unclear ones only, is *undecided*. "
     f"With fewer than {LEAST_SEEDS} seeds nothing is decided."
 )
 
@@ -50,17 +50,17 @@ class TableClaim:
         """Return status, conditions and numbers as the pages take them."""
         found = list(self.judge(models))
         said = [one.verdict for one in found]
-        right = said.count("yes")
+        right, wrong = said.count("yes"), said.count("no")
         if right == len(found):
             status = "holds"
-        elif right:
-            status = "holds in part"
+        elif wrong > right:
+            status = "does not hold"
         else:
-            status = "does not hold" if "no" in said else "undecided"
+            status = "holds in part" if right else "undecided"
         words = {"yes": "right", "no": "wrong", "unclear": "unclear"}
         return {
             "status": status,
-            "ours": f"{right} of {len(found)} conditions right, {said.count('no')} wrong",
+            "ours": f"{right} of {len(found)} conditions right, {wrong} wrong",
             "held": right,
             "trials": len(found),
             "interval": None,

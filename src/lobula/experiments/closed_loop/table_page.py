@@ -18,6 +18,8 @@ Document = Mapping[str, Any]
 TEST_SEEDS = range(7000, 8000)
 """The protocol's: all others are for calibration."""
 
+PROTOCOL_MINUTES = 60.0
+
 
 def page(plan: TablePlan, groups: Groups, found: Document, pictures: Mapping[str, str]) -> Iterator[str]:
     """Yield the lines of ``table1.md``; ``pictures`` are the files of the drawings and what they show."""
@@ -62,6 +64,9 @@ def _warning(plan: TablePlan, quick: bool) -> Iterator[str]:
         yield ""
     elif any(seed not in TEST_SEEDS for seed in plan.seeds):
         yield "**No result of the protocol:** these seeds are for calibration; test seeds begin with 7001."
+        yield ""
+    elif plan.minutes != PROTOCOL_MINUTES:
+        yield f"**No result of the protocol:** it asks for an hour of each, not {plan.minutes:g} minutes."
         yield ""
 
 
