@@ -16,7 +16,10 @@ PRINTS = {
     "blocks.py": ("one stream of 124 frames: first alarm in frame ", "comes: ", "alarm: True", "alarm: False"),
     "look_inside.py": ("lgmd2_grouped", "net motion is rightward"),
     "score_own_clips.py": ("comes.mp4", "hits 2 of 2, false alarms 0"),
+    "arena_own_detector.py": ("own detector: ", "the network: ", "chance: ", "SR1"),
+    "arena_environment.py": ("robot_3: ", " gained, ", " CP"),
 }
+NEEDS = {"arena_environment.py": "pettingzoo"}
 
 
 def test_every_example_is_tested():
@@ -25,6 +28,8 @@ def test_every_example_is_tested():
 
 @pytest.mark.parametrize("name", PRINTS)
 def test_an_example_runs(name, capsys, monkeypatch, tmp_path):
+    if name in NEEDS:
+        pytest.importorskip(NEEDS[name], reason=f"the extra {NEEDS[name]} is not installed")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", [name])
     runpy.run_path(str(EXAMPLES / name), run_name="__main__")
