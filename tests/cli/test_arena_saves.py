@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import signal
+
 import av
 import pytest
 
@@ -26,6 +28,26 @@ def test_replay_film_and_picture_of_one_run(call, tmp_path):
     assert frames_in(tmp_path / "again.mp4") == 15
     call("arena", "--replay", "r.npz", "--save", "again.png")
     assert (tmp_path / "again.png").read_bytes() == (tmp_path / "r.png").read_bytes()
+
+
+def test_a_signal_while_the_film_is_made_leaves_what_there_is_and_a_record(call, tmp_path, monkeypatch):
+    from lobula.experiments import arena_film
+
+    frame, drawn = arena_film.ArenaVideo.frame, []
+
+    def signalled(self, number, image):
+        frame(self, number, image)
+        drawn.append(number)
+        if len(drawn) == 50:
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr(arena_film.ArenaVideo, "frame", signalled)
+    done = call(*SHORT, "--save", "r.npz", "--save", "r.mp4", "--json")
+    assert done.code == 130
+    (record,) = done.records
+    assert (record["status"], record["minutes"], len(drawn)) == ("interrupted", 0.05, 50)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["r.npz", "r.part.mp4"]
+    assert frames_in(tmp_path / "r.part.mp4") >= 30
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from .counted import counted
 
 if TYPE_CHECKING:
     from ..arena.running import Run
+    from ..runtime.interrupts import Interrupted
     from .arena_saves import Shown
     from .progress import Screen
 
@@ -157,10 +158,11 @@ def _along(here: Screen) -> Callable[[float, float], None] | None:
 
 def _write(
     done: Run, saves: list[Path], shown: Shown, events: Path | None
-) -> tuple[dict[str, Any], LobulaError | None]:
-    """Write what was asked for; return what there is to say of it, and what went wrong, for after the report."""
+) -> tuple[dict[str, Any], LobulaError | Interrupted | None]:
+    """Write what was asked for; return what there is to say of it, and what ended it, for after the report."""
     from ..experiments.closed_loop.event_rows import event_lines
     from ..report.landing import whole_file
+    from ..runtime.interrupts import Interrupted
     from .arena_saves import write_saves
 
     said: dict[str, Any] = {}
@@ -170,7 +172,7 @@ def _write(
                 file.writelines(event_lines(done.events))
         if saves and done.record is not None:
             said = write_saves(done.record, saves, shown)
-    except LobulaError as error:
+    except (LobulaError, Interrupted) as error:
         return said, error
     return said, None
 

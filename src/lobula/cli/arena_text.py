@@ -40,7 +40,7 @@ def as_text(done: Run) -> str:
     )
 
 
-def record(done: Run, chosen: Chosen, failure: Exception | None, said: dict[str, Any] | None = None) -> str:
+def record(done: Run, chosen: Chosen, failure: BaseException | None, said: dict[str, Any] | None = None) -> str:
     """Return the run in one line of JSON: where it came from, the score, and the time each part took.
 
     ``said`` tells what else was written.
@@ -48,7 +48,8 @@ def record(done: Run, chosen: Chosen, failure: Exception | None, said: dict[str,
     from ..arena.world import world_hash
     from ..params import settings_hash
 
-    status = "failed" if failure else "ok" if done.finished else "interrupted"
+    stopped = isinstance(failure, Interrupted) or not (failure or done.finished)
+    status = "interrupted" if stopped else "failed" if failure else "ok"
     return json.dumps(
         {
             "type": "summary",

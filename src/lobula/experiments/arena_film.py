@@ -29,6 +29,7 @@ from ..report.arena_plan import ArenaPlan
 from ..report.arena_video import ArenaVideo, Line, Own, Tale, write_still
 from ..report.arena_view import Course
 from ..runtime.header import thresholds
+from ..runtime.interrupts import Interrupts
 from ..types import Reading, Spikes
 
 LONGEST_S = 180.0
@@ -66,6 +67,7 @@ def save_film(
     ------
     ParameterError : no such robot, an empty part, a speed out of range, a name that does not end in .mp4
     OutputError : the file cannot be written
+    Interrupted : Ctrl-C or SIGTERM, taken between two pictures; ``NAME.part.mp4`` holds what there is, and plays
     """
     path = Path(path)
     if path.suffix.lower() != ".mp4":
@@ -82,10 +84,11 @@ def save_film(
     about = {"seed": record.seed, "controller": record.controller, "robot": robot, "speed": speed}
     video = ArenaVideo(path, tell(record), own, speed=speed, fps=fps, about=about)
     try:
-        for frame, image in _pictures(record, robot, frames):
-            video.frame(frame, image)
-            if advance:
-                advance()
+        with Interrupts() as interrupts:
+            for frame, image in interrupts.between(_pictures(record, robot, frames)):
+                video.frame(frame, image)
+                if advance:
+                    advance()
     except BaseException:  # Ctrl-C too: the part stays and plays
         video.abandon()
         raise
