@@ -10,8 +10,8 @@ from lobula import arena, preset
 from lobula.arena.events import event_table
 from lobula.arena.world import Obstacle, RobotParams, RoomParams, World
 from lobula.errors import OutputError, ParameterError
-from lobula.experiments import arena_film
-from lobula.report.arena_plan import Ground
+from lobula.experiments import arena_film, arena_tale
+from lobula.report.arena_plan import ArenaPlan, Ground
 from lobula.report.arena_view import ArenaView
 
 
@@ -107,7 +107,7 @@ class TestTale:
         poses = record.poses.copy()
         poses[9, 0, :2], poses[9, 1, :2] = (10.0, 20.0), (14.0, 20.0)
         poses[80, 2, :2] = (40.0, 53.0)
-        told = arena_film.tell(replaced(record, poses=poses, events=event_table(rows)))
+        told = arena_tale.tell(replaced(record, poses=poses, events=event_table(rows)))
         assert told.marks.places_cm.tolist() == [[12.0, 20.0], [14.0, 20.0], [40.0, 55.0]]
         assert told.marks.frames.tolist() == [9, 9, 80]
         assert told.scores == ["SR1 -   SR2 -", "SR1 -   SR2 0 %", "SR1 100 %   SR2 0 %", "SR1 50 %   SR2 0 %"]
@@ -122,19 +122,19 @@ class TestTale:
         ]
         poses = record.poses.copy()
         poses[0, 0, :2], poses[0, 1, :2] = (30.0, 47.0), (58.0, 30.0)
-        told = arena_film.tell(replaced(record, world=round_world, poses=poses, events=event_table(rows)))
+        told = arena_tale.tell(replaced(record, world=round_world, poses=poses, events=event_table(rows)))
         assert told.marks.places_cm.tolist() == [[30.0, 45.0], [60.0, 30.0]]
 
     def test_the_preset_is_found_by_its_hash(self, record):
-        assert arena_film.tell(record).title == "3 robots, seed 5, preset paper, neurons all"
+        assert arena_tale.tell(record).title == "3 robots, seed 5, preset paper, neurons all"
         other = replaced(record, controller="NetworkController 0123456789ab")
-        assert arena_film.tell(other).title == "3 robots, seed 5, NetworkController 0123456789ab"
-        assert preset("paper") == arena_film._preset_of(record)[1]
+        assert arena_tale.tell(other).title == "3 robots, seed 5, NetworkController 0123456789ab"
+        assert preset("paper") == arena_tale.preset_of(record)[1]
 
 
 class TestTopView:
     def test_a_robot_is_drawn_where_it_is(self, record):
-        tale = arena_film.tell(record)
+        tale = arena_tale.tell(record)
         view, ground = ArenaView(tale.plan, tale.course, tale.marks, 600, 760), Ground(tale.plan, 600, 760)
         before, after = np.zeros((600, 760, 3), np.uint8), np.zeros((600, 760, 3), np.uint8)
         nobody = tale.course._replace(poses=np.full_like(tale.course.poses, 500.0))
@@ -146,7 +146,7 @@ class TestTopView:
             assert np.abs(edge - before[round(row), round(column - 1.85 * ground.scale)]).max() > 40
 
     def test_up_is_up(self):
-        plan = arena_film.ArenaPlan(circle=False, size_cm=(70.0, 55.0), wall_grey=np.array([180.0]))
+        plan = ArenaPlan(circle=False, size_cm=(70.0, 55.0), wall_grey=np.array([180.0]))
         ground = Ground(plan, 600, 760)
         (low, high), (left, right) = ground.px(np.array([0.0, 70.0]), np.array([0.0, 55.0]))
         assert low > high
