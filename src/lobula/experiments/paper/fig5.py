@@ -13,7 +13,7 @@ from .claims import Claim, Finding, finding
 from .conditions import chosen, each_speed
 from .counts import against_text, mean_text, share_text, spikes_text
 from .courses import FOUR, NAMES, READINGS, SPEED_LABELS, Motion, course, speeds_text
-from .figure import EXACTLY, NOISELESS, Other, PaperFigure, Plan, about
+from .figure import EXACTLY, LESS_NOISE, NOISELESS, Other, PaperFigure, Plan, about
 from .levers import LEVERS
 from .setups import setup_table
 from .trials import MAIN, About, Trial
@@ -31,7 +31,8 @@ LGMDS: tuple[Neuron, ...] = ("lgmd1", "lgmd2")
 PREFERRED: dict[Motion, Neuron] = {"translation_right": "lptc_r", "translation_left": "lptc_l"}
 
 OTHERS: dict[str, Other] = {
-    "no sensor noise": Other(world=NOISELESS),
+    "noise of 0.75 grey": Other(world=LESS_NOISE),
+    "no noise": Other(world=NOISELESS),
     "placed exactly": Other(EXACTLY),
     "placed exactly, no noise": Other(EXACTLY, NOISELESS),
     "ends at 2.5 cm": Other({"near_cm": 2.5}),
@@ -287,10 +288,11 @@ def words(plan: Plan, trials: Sequence[Trial]) -> Iterator[str]:
     yield ""
     yield (
         f"The paper prints neither distances nor most constants. Above, an approach ends {p.near_cm:g} cm before the "
-        f"lens, a translating robot passes at {p.pass_cm:g} cm, and all are misplaced by up to {10 * p.misplaced_cm:g} "
-        "mm from repeat to repeat. K_hs is the scale of the LPTCs (smaller: more sensitive), C_sig that of the LGMDs. "
-        f"Share of the trials that show each claim, with the first {min(plan.side_seeds, len(plan.seeds))} seeds, all "
-        "speeds:"
+        f"lens, a translating robot passes at {p.pass_cm:g} cm, all are misplaced by up to {10 * p.misplaced_cm:g} mm "
+        f"from repeat to repeat, and the sensor has noise of {plan.world.camera.noise_grey:g} grey levels. K_hs is the "
+        "scale of the LPTCs (smaller: more sensitive), C_sig that of the LGMDs; the dead zone, 0.0001 in both presets, "
+        "is the response of the DoG's inner field below which it has no sign. Share of the trials that show each "
+        f"claim, with the first {min(plan.side_seeds, len(plan.seeds))} seeds, all speeds:"
     )
     yield ""
     yield from setup_table(CLAIMS, trials, [*OTHERS, *LEVERS])

@@ -208,7 +208,7 @@ def words(plan: Plan, trials: Sequence[Trial]) -> Iterator[str]:
         "edge lengthens inwards. *Across*: at that angle to the optical axis, to the point right before the lens, "
         "so that the robot crosses the view. Both were tried, with four distances at which the robot stops. Share "
         f"of the trials that show each claim, at {' and '.join(OTHERS_AT)} in both readings, with the first "
-        f"{min(plan.side_seeds, len(plan.seeds))} seeds:"
+        f"{min(plan.side_seeds, len(plan.seeds))} seeds; the constants as on the page of Fig. 5:"
     )
     yield ""
     yield from setup_table(CLAIMS, [t for t in trials if t.label in OTHERS_AT], [*OTHERS, *LEVERS])

@@ -54,6 +54,7 @@ class PaperFigure:
 
 EXACTLY: Mapping[str, Any] = {"misplaced_cm": 0.0}
 NOISELESS: Mapping[str, Any] = {"camera": {"noise_grey": 0.0}}
+LESS_NOISE: Mapping[str, Any] = {"camera": {"noise_grey": 0.75}}
 
 
 class Other(NamedTuple):

@@ -149,17 +149,24 @@ def gathered_page(documents: Sequence[Document], details: str = "") -> Iterator[
         )
         yield ""
         yield from claims_table(found)
-        reasons = [
-            f"- {claim['number']}, `{preset}`: {of['reason']}"
-            for claim in found["claims"]
-            for preset, of in claim["verdicts"].items()
-            if of["reason"]
-        ]
+        reasons = list(_reasons(found))
         if reasons:
             yield ""
             yield "What is missing, and why:"
             yield ""
             yield from reasons
+
+
+def _reasons(found: Document) -> Iterator[str]:
+    """Yield a list in Markdown: each reason once, with the claims and presets it is given for."""
+    given: dict[str, dict[str, list[str]]] = {}
+    for claim in found["claims"]:
+        for preset, of in claim["verdicts"].items():
+            if of["reason"]:
+                given.setdefault(of["reason"], {}).setdefault(preset, []).append(claim["number"])
+    for reason_text, presets in given.items():
+        for_whom = "; ".join(f"{', '.join(numbers)}, `{preset}`" for preset, numbers in presets.items())
+        yield f"- {for_whom}: {reason_text}"
 
 
 def _tally(found: Document) -> str:
