@@ -16,8 +16,9 @@ from typing import Any
 BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
 MARKS = {True: "yes", False: "**no**", None: ""}
 TIMES = {
-    "numpy_us": "NumPy+SciPy", "opencv_us": "tuned OpenCV", "flow_us": "DIS ultrafast flow", "step_us": "core, step",
-    "blocks_us": "core, blocks", "noise_us": "core, step, strong noise", "scaled_us": "core, step, scaled kernels",
+    "numpy_us": "NumPy+SciPy", "opencv_us": "tuned OpenCV", "opencv folded_us": "OpenCV, the core's algebra",
+    "flow_us": "DIS ultrafast flow", "step_us": "core, step", "blocks_us": "core, blocks",
+    "noise_us": "core, step, strong noise", "scaled_us": "core, step, scaled kernels",
     "preset paper_us": "core, step, preset paper",
 }  # fmt: skip
 

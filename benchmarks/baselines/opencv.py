@@ -1,13 +1,7 @@
-"""The network tuned on OpenCV: every pass is one call into a reused buffer, and algebra saves passes.
+"""The network tuned on OpenCV: every pass is one call into a reused buffer, and neighbours are summed once.
 
-The algebra changes nothing but rounding:
-
-- [E - w I]+ needs three maps of a channel, now and one step ago: the channel, its 3 x 3 sum, and the sum over the four
-  nearest cells. They are made once for both LGMDs; each [E - w I] is then one row of weights on six maps.
-- Branches that come out alike, such as the OFF branches of both LGMDs, are computed once.
-- The scale of the adaptation is a factor of the net motion, and is applied there.
-- All spans of Eq. (3) together are the sum of M' (k * M), M' being M one step ago and zero outside the picture, where
-  the antisymmetric kernel k holds the share of a span at +d and its negative at -d: one filter and one dot product.
+Low-pass and 3 x 3 filter commute, so the sums over a cell's neighbours are made once for both LGMDs; what follows them
+is cell by cell. ``opencv_folded`` goes further.
 
 As in the NumPy baseline, flashes, repeated frames, the decision's window and frames off the model clock are left out,
 which favours this baseline.
@@ -15,6 +9,7 @@ which favours this baseline.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import cv2
@@ -30,7 +25,7 @@ from .neurons import Neurons, Potentials
 
 Map = NDArray[np.float32]
 
-EDGE, ZERO = cv2.BORDER_REPLICATE, cv2.BORDER_CONSTANT
+EDGE = cv2.BORDER_REPLICATE
 NEAREST = np.array([[0, 1, 0], [1, 0, 1], [0, 1, 0]], np.float32)
 POSITIVE = cv2.THRESH_TOZERO
 
@@ -43,9 +38,13 @@ class OpencvNetwork:
         dog = p.lamina.dog
         self.inner = gaussian_kernel(dog.radius_px, dog.sigma_px)
         self.outer = gaussian_kernel(dog.radius_px * dog.surround, dog.sigma_px * dog.surround)
+        self.residual = p.lamina.on_off.residual
         self.neurons = Neurons(p, shape[0] * shape[1])
         self.started = False
-        self._prepare(p.clock.period_ms)
+        dt_ms = p.clock.period_ms
+        self.rise_share = _kept(p.lamina.fdsr.rise_ms, dt_ms)
+        self.span_shares = [_kept(tau, dt_ms) for tau in p.lptc.emd.delays_ms]
+        self.inhibition = [[_ring_weights(q, dt_ms) for q in (lgmd.on, lgmd.off)] for lgmd in self.neurons.lgmds]
 
         def maps(*count: int) -> Map:
             return np.zeros((*count, *shape), np.float32)
@@ -55,9 +54,9 @@ class OpencvNetwork:
         self.halves = maps(2)
         self.channels, self.channels_before = maps(2), maps(2)
         self.adapted, self.adapted_before = maps(2), maps(2)
-        self.sums = maps(2, 2, 3)  # channel, step (the two take turns), map
+        self.sums = maps(2, 2, 3)  # channel, step (the two take turns), map: itself, its 3 x 3 sum, its nearest four
         self.phase = 0
-        self.branches = maps(2, 2)  # channel, LGMD
+        self.on, self.off = maps(2)
 
     def step(self, image: NDArray[Any], time_s: float) -> Potentials:
         """Advance by one frame, (H, W) luminance 0..255; frames are one tick of the model clock apart."""
@@ -72,36 +71,6 @@ class OpencvNetwork:
         net_motion = self._net_motion()
         self._excite()
         return self.neurons.step(self._lgmds(arousal), net_motion)
-
-    def _prepare(self, dt_ms: float) -> None:
-        """Work out the weights and kernels."""
-        self.residual = self.p.lamina.on_off.residual
-        rise_ms = self.p.lamina.fdsr.rise_ms
-        self.rise_share = rise_ms / (dt_ms + rise_ms)
-        emd = self.p.lptc.emd
-        widest = max(emd.spans_px)
-        self.emd_kernel = np.zeros((1, 2 * widest + 1), np.float32)
-        for span, tau in zip(emd.spans_px, emd.delays_ms, strict=True):
-            share = tau / (dt_ms + tau)
-            self.emd_kernel[0, widest + span] += share
-            self.emd_kernel[0, widest - span] -= share
-        lgmds = self.neurons.lgmds
-        self.biases = [[lgmd.on.bias for lgmd in lgmds], [lgmd.off.bias for lgmd in lgmds]]
-        self.inhibition = [
-            np.array([_ring_weights(p, dt_ms) for p in channel])
-            for channel in zip(*((lgmd.on, lgmd.off) for lgmd in lgmds), strict=True)
-        ]
-        self.at_rest = [self._weights(c, self.biases[c]) for c in range(2)]
-
-    def _weights(self, channel: int, biases: list[float]) -> tuple[Map, Map]:
-        """Return the weights of E - w I on the six maps of a channel, one row for each LGMD, alike rows once.
-
-        Two orders: for the steps at which the present maps lie first, and for those at which they lie second.
-        """
-        weights = -np.array(biases)[:, None] * self.inhibition[channel]
-        weights[:, 0] += 1.0
-        weights = weights[: 1 if np.array_equal(*weights) else 2]
-        return weights.astype(np.float32), np.roll(weights, 3, axis=1).astype(np.float32)
 
     def _difference_of_gaussians(self) -> None:
         """Write [LA]+ and [-LA]+."""
@@ -120,20 +89,29 @@ class OpencvNetwork:
         np.less(i, zero, out=other)
         cv2.copyTo(self.work, cv2.bitwise_and(self.mask, self.other, dst=self.mask), off)
 
-    def _net_motion(self) -> float:
-        """Advance the lamina's channels and their adaptation; return the sum of every correlator."""
+    def _channels(self) -> Iterator[tuple[Map, Map, Map, Map]]:
+        """Advance the lamina's ON and OFF; yield each with its past, and the maps of its adaptation, now and past."""
         self.channels, self.channels_before = self.channels_before, self.channels
         self.adapted, self.adapted_before = self.adapted_before, self.adapted
-        total = 0.0
         for half, now, before, m, m_before in zip(
             self.halves, self.channels, self.channels_before, self.adapted, self.adapted_before, strict=True
         ):
             cv2.scaleAdd(before, self.residual, half, dst=now)
-            cv2.subtract(now, before, dst=self.work)
-            cv2.threshold(self.work, 0, 0, POSITIVE, dst=m)
-            cv2.filter2D(m, -1, self.emd_kernel, dst=self.work, borderType=ZERO)
-            total += float(np.vdot(m_before, self.work))
-        return total * self.rise_share**2
+            yield now, before, m, m_before
+
+    def _net_motion(self) -> float:
+        """Return the sum of every correlator, rightward positive."""
+        total = 0.0
+        for now, before, m, m_before in self._channels():
+            cv2.addWeighted(now, self.rise_share, before, -self.rise_share, 0.0, dst=m)
+            cv2.threshold(m, 0, 0, POSITIVE, dst=m)
+            for span, share in zip(self.p.lptc.emd.spans_px, self.span_shares, strict=True):
+                left, right, work = m[:, :-span], m[:, span:], self.work[:, span:]
+                cv2.multiply(m_before[:, :-span], right, dst=work)
+                rightward = cv2.sumElems(work)[0]
+                cv2.multiply(left, m_before[:, span:], dst=work)
+                total += share * (rightward - cv2.sumElems(work)[0])
+        return total
 
     def _excite(self) -> None:
         """Advance the LGMDs' channels and sum their neighbours."""
@@ -148,32 +126,39 @@ class OpencvNetwork:
 
     def _lgmds(self, arousal: tuple[float, float]) -> tuple[float, float]:
         """Return the sums of the grouped cells of both."""
-        branches: list[Map] = []
-        for c in range(2):
-            biases = [max(bias, a) for bias, a in zip(self.biases[c], arousal, strict=True)]
-            weights = (self.at_rest[c] if biases == self.biases[c] else self._weights(c, biases))[self.phase]
-            out = self.branches[c, : len(weights)]
-            flat = out.reshape(len(weights), -1)
-            np.matmul(weights, self.sums[c].reshape(6, -1), out=flat)
-            cv2.threshold(flat, 0, 0, POSITIVE, dst=flat)
-            branches.append(out)
         totals = []
         for k, p in enumerate(self.neurons.lgmds):
-            on, off = (branch[min(k, len(branch) - 1)] for branch in branches)
-            totals.append(_group(p, on, off, self.work, self.mean))
+            for c, (branch, out) in enumerate(((p.on, self.on), (p.off, self.off))):
+                self._branch(c, max(branch.bias, arousal[k]), self.inhibition[k][c], out)
+            totals.append(group(p, self.on, self.off, self.work, self.mean))
         return totals[0], totals[1]
+
+    def _branch(self, channel: int, bias: float, weights: list[float], out: Map) -> None:
+        """Write [E - w I]+ of one channel."""
+        now, before = self.sums[channel, self.phase], self.sums[channel, 1 - self.phase]
+        own, *others = ((-bias * a, -bias * b) for a, b in zip(weights[:3], weights[3:], strict=True))
+        cv2.addWeighted(now[0], 1.0 + own[0], before[0], own[1], 0.0, dst=out)
+        for x, x_before, (a, b) in zip(now[1:], before[1:], others, strict=True):
+            cv2.addWeighted(x, a, x_before, b, 0.0, dst=self.work)
+            cv2.add(out, self.work, dst=out)
+        cv2.threshold(out, 0, 0, POSITIVE, dst=out)
+
+
+def _kept(tau_ms: float, dt_ms: float) -> float:
+    """Return the share of the step before in a low-pass."""
+    return tau_ms / (dt_ms + tau_ms)
 
 
 def _ring_weights(p: InhibitionParams, dt_ms: float) -> list[float]:
     """Return the weights of I on the three maps now, then one step ago."""
     rings = ((p.centre_weight, p.centre_ms), (p.nearest_weight, p.nearest_ms), (p.diagonal_weight, p.diagonal_ms))
-    now = [w * dt_ms / (dt_ms + tau) for w, tau in rings]
-    steps = (now, [w - n for (w, _), n in zip(rings, now, strict=True)])
+    past = [w * _kept(tau, dt_ms) for w, tau in rings]
+    steps = ([w - b for (w, _), b in zip(rings, past, strict=True)], past)
     # The 3 x 3 sum brings the diagonals, but the centre and the nearest too.
     return [x for centre, nearest, diagonal in steps for x in (centre - diagonal, diagonal, nearest - diagonal)]
 
 
-def _group(p: LgmdParams, on: Map, off: Map, s: Map, mean: Map) -> float:
+def group(p: LgmdParams, on: Map, off: Map, s: Map, mean: Map) -> float:
     """Return the sum of the grouped cells; ``s`` and ``mean`` are written over."""
     if p.on_gain == p.off_gain == 1.0:
         cv2.add(on, off, dst=s)

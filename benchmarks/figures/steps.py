@@ -12,6 +12,7 @@ import roofline
 from baselines.flow import DisFlow
 from baselines.numpy_scipy import NumpyScipyNetwork
 from baselines.opencv import OpencvNetwork
+from baselines.opencv_folded import FoldedOpencvNetwork
 
 from lobula.bench.network import Step, frame_by_frame, in_blocks, network
 from lobula.bench.scenes import Images, pure_noise, scenes
@@ -68,6 +69,7 @@ def _time(size: tuple[int, int], rounds: int) -> dict[str, Timing]:
         "blocks": in_blocks(published, movies),
         "numpy": slow(lambda: NumpyScipyNetwork(p, shape).step),
         "opencv": slow(lambda: OpencvNetwork(p, shape).step),
+        "opencv folded": slow(lambda: FoldedOpencvNetwork(p, shape).step),
         "flow": frame_by_frame(lambda: DisFlow().step, movies, SLOW_FRAMES[size] * 4),
         "noise": core([pure_noise(width, height, FRAMES)]),
         "scaled": core(make=scaled),
@@ -132,6 +134,7 @@ def _from_roofline(size: tuple[int, int], t: dict[str, Timing], peaks: roofline.
 
 def _beside(size: tuple[int, int], t: dict[str, Timing]) -> list[Figure]:
     told = [
+        _told("step against OpenCV with the core's algebra", size, t, "opencv folded", "step"),
         _told("blocks against step", size, t, "step", "blocks"),
         _told("strong noise against the movies", size, t, "noise", "step", better="less"),
         _told("scaled kernels against fixed", size, t, "scaled", "step", better="less"),

@@ -18,7 +18,7 @@ MOVIES = {
 }
 
 
-@pytest.fixture(params=["numpy_scipy:NumpyScipyNetwork", "opencv:OpencvNetwork"])
+@pytest.fixture(params=["numpy_scipy:NumpyScipyNetwork", "opencv:OpencvNetwork", "opencv_folded:FoldedOpencvNetwork"])
 def baseline(request):
     file, name = request.param.split(":")
     needs, extra = ("scipy", "scipy") if file == "numpy_scipy" else ("cv2", "opencv-python-headless")
