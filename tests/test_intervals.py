@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lobula.errors import ParameterError
-from lobula.intervals import bootstrap, garwood, paired_bootstrap, wilson
+from lobula.intervals import bootstrap, garwood, wilson
 
 
 @pytest.mark.parametrize(
@@ -113,26 +113,7 @@ def test_seeds_without_events_are_left_out_of_the_rate_only():
     assert (low, high) == (0.5, 0.5)
 
 
-def test_pairing_takes_the_spread_between_seeds_away():
-    base = np.random.default_rng(1).integers(20, 60, (12, 1))
-    ours, theirs = np.hstack([base + 10, 90 - base]), np.hstack([base, 100 - base])
-    low, high = paired_bootstrap(ours, theirs, share)  # ten of a hundred better with every seed
-    assert (low, high) == pytest.approx((0.1, 0.1))
-    assert bootstrap(ours, share)[1] - bootstrap(ours, share)[0] > 0.05
-
-
-def test_paired_difference_changes_sign_with_the_sides():
-    other = SEEDS[::-1]
-    low, high = paired_bootstrap(SEEDS, other, share)
-    assert paired_bootstrap(other, SEEDS, share) == pytest.approx((-high, -low))
-
-
 @pytest.mark.parametrize("bad", [[1, 2, 3], [], [[]]])
 def test_bootstrap_refuses_what_is_no_table(bad):
     with pytest.raises(ParameterError, match=r"must be \(S, K\)"):
         bootstrap(bad, share)
-
-
-def test_pairs_must_match():
-    with pytest.raises(ParameterError, match="must have the same shape"):
-        paired_bootstrap(SEEDS, SEEDS[:3], share)

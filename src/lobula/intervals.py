@@ -92,58 +92,14 @@ def bootstrap(
 
     Source: Efron & Tibshirani, An Introduction to the Bootstrap, 1993, ch. 13.
     """
-    table = _table(counts, "bootstrap")
-    drawn = _drawn_sums(table, resamples, seed)
-    return _percentiles(_values(statistic, drawn), len(table), confidence)
-
-
-def paired_bootstrap(
-    counts: ArrayLike,
-    baseline: ArrayLike,
-    statistic: Statistic,
-    *,
-    confidence: float = CONFIDENCE,
-    resamples: int = RESAMPLES,
-    seed: int = 0,
-) -> Interval:
-    """Return the percentile interval of ``statistic`` of ``counts`` less that of ``baseline``, paired by seed.
-
-    Row s of both (S, K) tables comes from the same seed, so each draw takes the same rows of both. All else is as in
-    ``bootstrap``.
-
-    Raises
-    ------
-    ParameterError : tables of different shape
-    """
-    ours, theirs = _table(counts, "paired_bootstrap"), _table(baseline, "paired_bootstrap")
-    if ours.shape != theirs.shape:
-        raise ParameterError(f"paired_bootstrap: tables of {ours.shape} and {theirs.shape}: must have the same shape")
-    both = _drawn_sums(np.hstack([ours, theirs]), resamples, seed)
-    columns = ours.shape[1]
-    difference = _values(statistic, both[:, :columns]) - _values(statistic, both[:, columns:])
-    return _percentiles(difference, len(ours), confidence)
-
-
-def _table(counts: ArrayLike, where: str) -> NDArray[np.float64]:
     table = np.asarray(counts, np.float64)
     if table.ndim != 2 or table.size == 0:
-        raise ParameterError(f"{where}: counts of shape {table.shape}: must be (S, K), a row for each seed")
-    return table
-
-
-def _drawn_sums(table: NDArray[np.float64], resamples: int, seed: int) -> NDArray[np.float64]:
-    """Sums (resamples, K) of as many rows as there are, drawn with replacement: how often each, times the row."""
+        raise ParameterError(f"bootstrap: counts of shape {table.shape}: must be (S, K), a row for each seed")
     seeds = len(table)
+    # a draw is told by how often it takes each seed
     times = np.random.default_rng(seed).multinomial(seeds, np.full(seeds, 1 / seeds), resamples)
-    return np.asarray(times @ table, np.float64)
-
-
-def _values(statistic: Statistic, sums: NDArray[np.float64]) -> NDArray[np.float64]:
     with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray(statistic(sums), np.float64)
-
-
-def _percentiles(values: NDArray[np.float64], seeds: int, confidence: float) -> Interval:
+        values = np.asarray(statistic(np.asarray(times @ table, np.float64)), np.float64)
     known = values[np.isfinite(values)]
     if seeds < 2 or not known.size:
         return math.nan, math.nan

@@ -94,16 +94,14 @@ def walk(params: Params, prefix: str = "") -> Iterator[tuple[str, Params, str]]:
 
 
 def to_dict(params: Params) -> dict[str, Any]:
-    """Return the settings as nested plain dictionaries, ready for TOML or JSON."""
-    tree: dict[str, Any] = {}
-    for path, owner, name in walk(params):
-        *parents, last = path.split(".")
-        node = tree
-        for parent in parents:
-            node = node.setdefault(parent, {})
-        value = getattr(owner, name)
-        node[last] = list(value) if isinstance(value, tuple) else value
-    return tree
+    """Return the settings as nested plain dictionaries, a list of them where there are several of a kind."""
+    return {f.name: _plainly(getattr(params, f.name)) for f in fields(params) if f.name != "origins"}
+
+
+def _plainly(value: Any) -> Any:
+    if isinstance(value, tuple):
+        return [_plainly(item) for item in value]
+    return to_dict(typing.cast(Params, value)) if is_dataclass(value) else value
 
 
 def with_settings(params: Params, settings: Mapping[str, Any], source: str, where: str = "") -> Any:

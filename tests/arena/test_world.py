@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lobula.arena.world import LightParams, Obstacle, RoomParams, World, world_dict, world_hash
+from lobula.arena.world import LightParams, Obstacle, RoomParams, World
 from lobula.errors import ParameterError
+from lobula.params import settings_hash, to_dict
 
 
 def test_the_default_is_the_papers_arena() -> None:
@@ -30,9 +31,9 @@ def test_perimeters_and_distances_to_the_wall() -> None:
 def test_the_hash_tells_worlds_apart_by_any_setting_and_obstacle() -> None:
     worlds = [World(), World(obstacles=(Obstacle(),)), World(obstacles=(Obstacle(x_cm=30),)),
               replace(World(), room=RoomParams(width_cm=71))]  # fmt: skip
-    assert len({world_hash(world) for world in worlds}) == len(worlds)
-    assert world_hash(World()) == world_hash(World())
-    assert world_dict(worlds[1])["obstacles"][0]["radius_cm"] == 2.5
+    assert len({settings_hash(world) for world in worlds}) == len(worlds)
+    assert settings_hash(World()) == settings_hash(World())
+    assert to_dict(worlds[1])["obstacles"][0]["radius_cm"] == 2.5
 
 
 def test_obstacles_must_be_such() -> None:

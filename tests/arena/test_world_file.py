@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from lobula.arena.world import BodyParams, Obstacle, RoomParams, WallParams, World, world_hash
+from lobula.arena.world import BodyParams, Obstacle, RoomParams, WallParams, World
 from lobula.arena.world_file import load_world, parse_world, world_toml
 from lobula.errors import ParameterError
+from lobula.params import settings_hash
 
 OTHER = World(
     room=RoomParams(shape="circle", radius_cm=40),
@@ -20,7 +21,7 @@ OTHER = World(
 def test_a_world_comes_back_from_its_toml(world: World) -> None:
     again = parse_world(world_toml(world), "test")
     assert again == world
-    assert world_hash(again) == world_hash(world)
+    assert settings_hash(again) == settings_hash(world)
 
 
 def test_what_a_file_does_not_name_is_as_in_the_paper(tmp_path: Path) -> None:

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..errors import ParameterError
+from ..params import settings_hash
 from .chance import Chance
 from .contact import Contact, Episodes, Surroundings
 from .controller import Bools, Controller, ControllerError, KeepsState, decide, keeps_state, require_controller
@@ -26,7 +27,7 @@ from .history import History, Past
 from .motion import FORWARD, Motion
 from .placement import random_poses
 from .scene import build_scene
-from .world import World, world_hash
+from .world import World
 
 SAVE_EVERY_S = 0.25
 """The controllers' states are saved this often, so that the last second can be judged again from one of them."""
@@ -221,7 +222,7 @@ class Simulation:
         """
         keeper = self._require_keeper()
         return {
-            "world": world_hash(self.world),
+            "world": settings_hash(self.world),
             "seed": int(self.seed),
             "tick": self.tick_count,
             "motion": copy.deepcopy(self.motion.state()),
@@ -240,7 +241,7 @@ class Simulation:
         ControllerError : the controller does not keep its state
         """
         keeper = self._require_keeper()
-        for name, own in (("world", world_hash(self.world)), ("seed", int(self.seed))):
+        for name, own in (("world", settings_hash(self.world)), ("seed", int(self.seed))):
             if snapshot[name] != own:
                 raise ParameterError(f"snapshot of {name} {snapshot[name]}: must be of {own}, that of this simulation")
         self.tick_count = int(snapshot["tick"])

@@ -7,17 +7,14 @@ are in rad, counter-clockwise from x.
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
-from ..params import Params, param, to_dict
+from ..params import Params, param
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -251,16 +248,6 @@ class World(Params):
         if self.room.shape == "circle":
             return width / 2 - math.hypot(x_cm - width / 2, y_cm - depth / 2)
         return min(x_cm, width - x_cm, y_cm, depth - y_cm)
-
-
-def world_dict(world: World) -> dict[str, Any]:
-    """Return all settings as nested plain dictionaries; ``obstacles`` is a list of them."""
-    return {**to_dict(world), "obstacles": [to_dict(obstacle) for obstacle in world.obstacles]}
-
-
-def world_hash(world: World) -> str:
-    """Return twelve hexadecimal digits that change when any setting or obstacle changes."""
-    return hashlib.sha256(json.dumps(world_dict(world), sort_keys=True).encode()).hexdigest()[:12]
 
 
 def _ordered(params: Params, low: str, high: str) -> None:

@@ -45,7 +45,6 @@ def record(done: Run, chosen: Chosen, failure: BaseException | None, said: dict[
 
     ``said`` tells what else was written.
     """
-    from ..arena.world import world_hash
     from ..params import settings_hash
 
     stopped = isinstance(failure, Interrupted) or not (failure or done.finished)
@@ -59,7 +58,7 @@ def record(done: Run, chosen: Chosen, failure: BaseException | None, said: dict[
             "preset": chosen.preset,
             "neurons": chosen.params.decision.neurons,
             "settings_hash": settings_hash(chosen.params),
-            "world_hash": world_hash(done.world),
+            "world_hash": settings_hash(done.world),
             "seed": done.seed,
             "robots": done.world.robots.count,
             "minutes": round(done.minutes, 6),

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import chain
 from typing import Any
 
-from ...arena.world import world_hash
+from ...params import settings_hash
 from .event_rows import COLUMNS, csv_lines, event_rows
 from .jobs import Done
 
@@ -20,7 +20,7 @@ def job_lines(results: Iterable[Done]) -> Iterator[str]:
             **_about(done),
             "minutes": done.job.minutes,
             "driver": done.job.driver_hash,
-            "world": world_hash(done.job.world),
+            "world": settings_hash(done.job.world),
             **{
                 name: round(value, 6) if isinstance(value, float) else value
                 for name, value in done.score.as_dict().items()

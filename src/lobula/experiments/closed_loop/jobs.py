@@ -15,7 +15,7 @@ from ...arena.network_controller import NetworkController
 from ...arena.running import run
 from ...arena.scoring import Score, counts
 from ...arena.snapshot import load_snapshot, save_snapshot
-from ...arena.world import World, world_hash
+from ...arena.world import World
 from ...errors import ParameterError
 from ...model.network import NetworkParams
 from ...params import settings_hash
@@ -69,7 +69,7 @@ class Job:
     def identity(self, code: str) -> dict[str, Any]:
         """Return everything the result depends on; ``code`` is the hash of the code."""
         return {
-            "world": world_hash(self.world),
+            "world": settings_hash(self.world),
             "driver": self.driver_hash,
             "seed": self.seed,
             "minutes": self.minutes,

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from ...arena.world import World, world_hash
+from ...arena.world import World
 from ...errors import ParameterError
 from ...model.network import NetworkParams
 from ...params import settings_hash
@@ -64,7 +64,7 @@ def jobs_of(variant: Variant, plan: ScanPlan) -> Iterator[Job]:
     """Yield the jobs of ``variant``; two variants with the same settings have the same jobs."""
     for robots in plan.densities:
         world = replace(variant.world, robots=replace(variant.world.robots, count=robots))
-        model = f"{settings_hash(variant.params)}-{world_hash(world)}"
+        model = f"{settings_hash(variant.params)}-{settings_hash(world)}"
         for seed in plan.seeds:
             yield Job(
                 name=f"{model}-{seed}", model=model, world=world, seed=seed, minutes=plan.minutes, driver=variant.params
@@ -146,6 +146,6 @@ def _row(variant: Variant, robots: int, found: Group) -> dict[str, Any]:
         "value": variant.value,
         "robots": robots,
         "settings": settings_hash(variant.params),
-        "world": world_hash(variant.world),
+        "world": settings_hash(variant.world),
         **found.score.as_dict(),
     }

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 from ..._version import __version__
-from ...arena.world import world_hash
 from ...errors import ParameterError
 from ...params import settings_hash
 from ...report.landing import whole_file
@@ -132,7 +131,7 @@ def document(plan: TablePlan, groups: Groups, quick: bool) -> dict[str, Any]:
 def _settings(plan: TablePlan) -> dict[str, Any]:
     return {
         "presets": {name: settings_hash(params) for name, params in plan.presets.items()},
-        "world": world_hash(plan.world),
+        "world": settings_hash(plan.world),
         "robots": list(plan.densities),
         "seeds": list(plan.seeds),
         "minutes": plan.minutes,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from ...arena.scoring import Score
-from ...arena.world import world_hash
+from ...params import settings_hash
 from .paper_table import PAPER
 from .table_claims import RULE
 from .table_jobs import CONTROL_SHARE, Groups, TablePlan
@@ -71,7 +71,7 @@ def _warning(plan: TablePlan, quick: bool) -> Iterator[str]:
 
 
 def _made_by(plan: TablePlan, groups: Groups, found: Document) -> Iterator[str]:
-    worlds = {done.job.robots: world_hash(done.job.world) for group in groups.values() for done in group.results}
+    worlds = {done.job.robots: settings_hash(done.job.world) for group in groups.values() for done in group.results}
     yield (
         f"Made by `{found['command']}`, lobula {found['version']}, code `{found['code']}`, seeds "
         f"{plan.seeds[0]} to {plan.seeds[-1]}, {plan.minutes:g} simulated minutes for each model, number of robots and "

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from ...arena.world import World, world_hash
+from ...arena.world import World
 from ...engine.network import Network
 from ...model.network import NetworkParams
 from ...params import settings_hash, with_settings
@@ -84,7 +84,7 @@ def run(figure: PaperFigure, plan: Plan, advance: Callable[[], None] | None = No
     networks = {name: Network(params) for name, params in plan.presets.items()}
     others = [(change, name, Network(params)) for change, name, params in pulled(plan.presets)]
     for about in figure.shots(plan):
-        stage = stages.setdefault(world_hash(about.world), Stage(about.world))
+        stage = stages.setdefault(settings_hash(about.world), Stage(about.world))
         film = stage.film(about.course, about.p, about.seed)
         trials += [trial(about, film, name, network) for name, network in networks.items()]
         if figure.levers and about.setup == MAIN and about.seed in plan.seeds[: plan.side_seeds]:
