@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from lobula.model.network import NetworkParams
-from lobula.model.presets import BASES, DEFAULT, preset
+from lobula.model.presets import DEFAULT, PRESETS, preset
 from lobula.params import Params, walk
 
 PAGE = Path(__file__).with_name("presets.md")
@@ -17,9 +17,11 @@ BEGIN, END = "<!-- made by make_presets.py: begin -->\n", "<!-- made by make_pre
 MECHANISMS = {
     "clock": "Model clock",
     "flash": "Flash: global changes of light",
+    "saturation": "Retina: saturation of the change",
     "lamina.dog": "Lamina: difference of Gaussians (DoG)",
     "lamina.on_off": "Lamina: ON and OFF channels",
     "lamina.fdsr": "Lamina: fast-depolarising slow-repolarising adaptation (FDSR)",
+    "coarse": "Coarse patches of the retina's change",
     "lgmd1": "LGMD-1",
     "lgmd1.on": "LGMD-1: inhibition in the ON channel",
     "lgmd1.off": "LGMD-1: inhibition in the OFF channel",
@@ -42,7 +44,8 @@ MECHANISMS = {
 
 def table() -> str:
     """Return one table: every mechanism, whether it is on, its settings, and the origin of each value."""
-    chosen = {name: dict(_settings(preset(name))) for name in sorted(BASES, key=lambda name: name != DEFAULT)}
+    presets = {name: preset(name) for name in sorted(PRESETS, key=lambda name: name != DEFAULT)}
+    chosen = {name: dict(_settings(params)) for name, params in presets.items()}
     titles = [f"`{name}`{' (default)' if name == DEFAULT else ''}" for name in chosen]
     lines = [
         f"| setting | {' | '.join(titles)} | unit | meaning | where the value comes from |",
@@ -53,7 +56,8 @@ def table() -> str:
             name: {path: at for path, at in settings.items() if path.rpartition(".")[0] == group}
             for name, settings in chosen.items()
         }
-        lines.append(f"| **{title}** | {' | '.join(_state(group, of) for of in own.values())} | | | |")
+        states = [_state(group, own[name], presets[name]) for name in presets]
+        lines.append(f"| **{title}** | {' | '.join(states)} | | | |")
         for path in next(iter(own.values())):
             owners = {name: of[path] for name, of in own.items()}
             lines.append(_row(path, owners))
@@ -71,8 +75,11 @@ def _settings(params: NetworkParams) -> list[tuple[str, tuple[Params, str]]]:
     return [(path, (owner, name)) for path, owner, name in walk(params)]
 
 
-def _state(group: str, own: dict[str, tuple[Params, str]]) -> str:
-    """Whether the mechanism is on; of an LGMD, what it reads."""
+def _state(group: str, own: dict[str, tuple[Params, str]], params: NetworkParams) -> str:
+    """Whether the mechanism is on; of an LGMD, what it reads; of the patches, who hears them."""
+    if group == "coarse":
+        heard = [title for title, lgmd in (("LGMD-1", params.lgmd1), ("LGMD-2", params.lgmd2)) if lgmd.coarse_gain]
+        return f"**on, heard by {' and '.join(heard)}**" if heard else "**off**"
     values = {path.removeprefix(f"{group}."): getattr(*at) for path, at in own.items()}
     if "reads" in values:
         return f"**on, reads the {values['reads']}**"
@@ -81,11 +88,13 @@ def _state(group: str, own: dict[str, tuple[Params, str]]) -> str:
 
 def _row(path: str, owners: dict[str, tuple[Params, str]]) -> str:
     values = [_value(getattr(*at)) for at in owners.values()]
-    sources = {name: owner.source_of(setting) for name, (owner, setting) in owners.items()}
-    if len(set(sources.values())) == 1:
-        source = next(iter(sources.values()))
+    sources: dict[str, list[str]] = {}
+    for name, (owner, setting) in owners.items():
+        sources.setdefault(owner.source_of(setting), []).append(f"`{name}`")
+    if len(sources) == 1:
+        source = next(iter(sources))
     else:
-        source = "; ".join(f"{text} (`{name}`)" for name, text in sources.items())
+        source = "; ".join(f"{text} ({', '.join(names)})" for text, names in sources.items())
     owner, name = next(iter(owners.values()))
     about = type(owner).__dataclass_fields__[name].metadata
     return f"| `{path}` | {' | '.join(values)} | {about['unit']} | {about['doc']} | {source} |"

@@ -30,7 +30,7 @@ extern "C" {
 #define LOBULA_API
 #endif
 
-#define LOBULA_ABI 1        /* changes when anything in this file does */
+#define LOBULA_ABI 2        /* changes when anything in this file does */
 #define LOBULA_ALIGN 64     /* alignment of the state and of the workspace, bytes */
 #define LOBULA_MAX_SPANS 8
 #define LOBULA_MIN_WIDTH 32
@@ -54,6 +54,14 @@ typedef struct {
 typedef struct {
     double enabled, min_change_grey, min_coverage, trim, min_explained, min_gain, max_gain;
 } lobula_flash_params;
+
+typedef struct {
+    double enabled, limit_grey;
+} lobula_saturation_params;
+
+typedef struct {
+    double patch_px, floor_grey;
+} lobula_coarse_params;
 
 typedef struct {
     double enabled, radius_px, sigma_px, surround, dead_zone_grey;
@@ -94,6 +102,7 @@ typedef struct {
     lobula_inhibition_params on, off;
     double neighbour_px, change_scale_grey, change_ms, on_gain, off_gain, product_gain;
     lobula_grouping_params grouping;
+    double coarse_gain, coarse_on_weight;
     double sigmoid_grey;
     lobula_sfa_params sfa;
     lobula_spiking_params spiking;
@@ -118,6 +127,8 @@ typedef struct {
 typedef struct {
     lobula_clock_params clock;
     lobula_flash_params flash;
+    lobula_saturation_params saturation;
+    lobula_coarse_params coarse;
     lobula_lamina_params lamina;
     lobula_lgmd_params lgmd1, lgmd2;
     lobula_lptc_params lptc;

@@ -22,7 +22,8 @@ static int possible(const lobula_params *p) {
     const lobula_lgmd_params *lgmds[2] = {&p->lgmd1, &p->lgmd2};
     int ok = between(p->clock.period_ms, 1.0, 1e4) && between(p->decision.window_ms, 0.0, 1e4) &&
              between(p->lamina.dog.radius_px, 1, 32) && between(p->lamina.dog.surround, 1, 4) &&
-             between(p->lamina.dog.sigma_px, 1e-3, 1e3) && between(p->lptc.emd.spans, 1, LOBULA_MAX_SPANS);
+             between(p->lamina.dog.sigma_px, 1e-3, 1e3) && between(p->lptc.emd.spans, 1, LOBULA_MAX_SPANS) &&
+             between(p->coarse.patch_px, 1, LOBULA_MAX_SIDE);
     for (int i = 0; ok && i < (int)p->lptc.emd.spans; i++) ok = between(p->lptc.emd.spans_px[i], 1, 256);
     for (int j = 0; ok && j < 2; j++) ok = between(lgmds[j]->neighbour_px, 1, 256) && between(lgmds[j]->reads, 0, 1);
     return ok;

@@ -64,8 +64,9 @@ static void rest(lobula_state *s) {
 static void conclude(lobula_state *s, const planned_step *step) {
     const lobula_params *p = &s->params;
     double pixels = (double)s->layout.width * (double)s->layout.height;
-    lgmd_potential(&p->lgmd1, &s->now.lgmd1, step->rows.total[0], pixels, step->dt_ms, p->clock.period_ms);
-    lgmd_potential(&p->lgmd2, &s->now.lgmd2, step->rows.total[1], pixels, step->dt_ms, p->clock.period_ms);
+    const double *patches = step->rows.patches;
+    lgmd_potential(&p->lgmd1, &s->now.lgmd1, step->rows.total[0], patches, pixels, step->dt_ms, p->clock.period_ms);
+    lgmd_potential(&p->lgmd2, &s->now.lgmd2, step->rows.total[1], patches, pixels, step->dt_ms, p->clock.period_ms);
     lptc_potentials(&p->lptc, &s->now, step->rows.hs, pixels);
     s->now.flashing = step->rows.flash;
     note_turning(s, step->time_s, step->turning);

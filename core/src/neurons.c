@@ -13,8 +13,10 @@ static double adapt(const lobula_sfa_params *p, double raw, double raw_before, d
     return adapted > 0.5 ? adapted : 0.5;
 }
 
-void lgmd_potential(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double total, double pixels, double dt_ms,
-                    double clock_ms) {
+void lgmd_potential(const lobula_lgmd_params *p, lobula_lgmd_scalars *now, double total, const double patches[2],
+                    double pixels, double dt_ms, double clock_ms) {
+    double looming = patches[OFF] - p->coarse_on_weight * patches[ON];
+    if (looming > 0.0) total += p->coarse_gain * looming;
     double raw = below_one(1.0 / (1.0 + exp(-total / (pixels * p->sigmoid_grey))));
     now->potential = adapt(&p->sfa, raw, now->raw, now->potential, dt_ms, clock_ms);
     now->raw = raw;

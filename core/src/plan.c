@@ -106,6 +106,11 @@ void plan_step(lobula_state *s, planned_step *step, double mean_change) {
         p->span[i] = stretched((int)emd->spans_px[i], step->ticks);
         p->span_share[i] = (float)((1.0 - low_pass_share(clock_ms, emd->delays_ms[i])) * uncounted);
     }
+    p->coarse = q->saturation.enabled != 0.0 || q->lgmd1.coarse_gain != 0.0 || q->lgmd2.coarse_gain != 0.0;
+    p->patch = (int)q->coarse.patch_px;
+    p->patch_floor = (float)q->coarse.floor_grey;
+    p->limit = q->saturation.enabled != 0.0 ? (float)q->saturation.limit_grey : 1e30f;
+    p->patches[ON] = p->patches[OFF] = 0.0;
     p->sets = 0;
     plan_lgmd(s, p, 0, arousal(&q->lgmd1, &s->now.lgmd1, mean_change, clock_ms));
     plan_lgmd(s, p, 1, arousal(&q->lgmd2, &s->now.lgmd2, mean_change, clock_ms));

@@ -6,14 +6,14 @@
 #include "scratch.h"
 
 /* A row of the retina: the luma and the channels of the change in the state, this step's over the one before; the
- * change; and what excites the LGMDs, where they read it. */
+ * change; what excites the LGMDs, where they read it; and the sums down the columns of the patches. */
 typedef struct {
-    float *luma, *change, *kept[2], *excitation[E_ROWS];
+    float *luma, *change, *kept[2], *excitation[E_ROWS], *columns;
 } retina_rows;
 
 /* What a vector needs of the plan, as vectors. */
 typedef struct {
-    vf scale, gain, offset, residual;
+    vf scale, gain, offset, residual, limit;
 } retina_constants;
 
 INLINE void excite(int x, vf signal, vf residual, float *kept, float *now_row, float *before_row) {
@@ -23,44 +23,71 @@ INLINE void excite(int x, vf signal, vf residual, float *kept, float *now_row, f
     vf_store(before_row + x, before);
 }
 
-/* model.retina.frame_difference, and where the LGMDs read it its ON and OFF channels (model.lamina.on_off) */
-INLINE void retina_vector(int x, vf now, const retina_constants *c, const retina_rows *r, int flash, int excites) {
+/* What a row is made with, known when it is compiled: the old light is another one; the LGMDs read the change; patches
+ * are heard and the change saturates. */
+enum { FLASH = 1, EXCITES = 2, COARSE = 4 };
+
+/* model.retina.frame_difference and saturate, and where the LGMDs read it its ON and OFF channels
+ * (model.lamina.on_off) */
+INLINE void retina_vector(int x, vf now, const retina_constants *c, const retina_rows *r, int what) {
     vf luma = vf_load(r->luma + x), zero = vf_all(0.0f);
-    if (flash) luma = c->gain * luma + c->offset;
+    if (what & FLASH) luma = c->gain * luma + c->offset;
     vf change = (now - luma) * c->scale;
+    if (what & COARSE) {
+        vf_store(r->columns + x, vf_load(r->columns + x) + change);
+        change = vf_max(zero - c->limit, vf_min(change, c->limit));
+    }
     vf_store(r->luma + x, now);
     vf_store(r->change + x, change);
-    if (excites) {
+    if (what & EXCITES) {
         excite(x, vf_max(change, zero), c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
         excite(x, vf_max(zero - change, zero), c->residual, r->kept[OFF], r->excitation[E_OFF],
                r->excitation[E_OFF_BEFORE]);
     }
 }
 
-INLINE void retina_row_as(int width, const step_plan *p, const char *image, int type, const retina_rows *rows, int flash,
-                          int excites) {
+INLINE void retina_row_as(int width, const step_plan *p, const char *image, int type, const retina_rows *rows, int what) {
     int whole = width / LANES * LANES;
     retina_rows r = *rows;
-    retina_constants c = {vf_all(p->scale), vf_all(p->gain), vf_all(p->offset), vf_all(p->residual)};
-    for (int x = 0; x < whole; x += LANES) retina_vector(x, pixels_at(image, type, x), &c, &r, flash, excites);
-    if (whole < width) retina_vector(whole, last_pixels(image, type, whole, width), &c, &r, flash, excites);
+    retina_constants c = {vf_all(p->scale), vf_all(p->gain), vf_all(p->offset), vf_all(p->residual), vf_all(p->limit)};
+    for (int x = 0; x < whole; x += LANES) retina_vector(x, pixels_at(image, type, x), &c, &r, what);
+    if (whole < width) retina_vector(whole, last_pixels(image, type, whole, width), &c, &r, what);
 }
 
-INLINE void retina_row_of(int width, const step_plan *p, const char *image, const retina_rows *r, int excites) {
+INLINE void retina_row_of(int width, const step_plan *p, const char *image, const retina_rows *r, int what) {
     if (p->flash)
-        retina_row_as(width, p, image, p->image.type, r, 1, excites);
+        retina_row_as(width, p, image, p->image.type, r, what | FLASH);
     else if (p->image.type == LOBULA_UINT8)
-        retina_row_as(width, p, image, LOBULA_UINT8, r, 0, excites);
+        retina_row_as(width, p, image, LOBULA_UINT8, r, what);
     else
-        retina_row_as(width, p, image, LOBULA_FLOAT32, r, 0, excites);
+        retina_row_as(width, p, image, LOBULA_FLOAT32, r, what);
 }
 
 static void retina_row_excites(int width, const step_plan *p, const char *image, const retina_rows *r) {
-    retina_row_of(width, p, image, r, 1);
+    retina_row_of(width, p, image, r, EXCITES);
 }
 
 static void retina_row_alone(int width, const step_plan *p, const char *image, const retina_rows *r) {
     retina_row_of(width, p, image, r, 0);
+}
+
+static void retina_row_coarse(int width, const step_plan *p, const char *image, const retina_rows *r, int excites) {
+    if (excites)
+        retina_row_of(width, p, image, r, EXCITES | COARSE);
+    else
+        retina_row_of(width, p, image, r, COARSE);
+}
+
+/* model/medulla/coarse.py: the patches that are complete, from their sums down the columns. */
+static void hear_patches(int width, const step_plan *p, const float *columns, double patches[2]) {
+    int side = p->patch;
+    float pixels = (float)(side * side), floor = p->patch_floor * pixels;
+    for (int left = 0; left + side <= width; left += side) {
+        float sum = 0.0f;
+        for (int x = left; x < left + side; x++) sum += columns[x];
+        if (sum > floor) patches[ON] += (double)(sum - floor);
+        if (-sum > floor) patches[OFF] += (double)(-sum - floor);
+    }
 }
 
 typedef struct {

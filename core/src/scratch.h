@@ -30,6 +30,7 @@ typedef enum { UNUSUAL, USUAL, PLAIN, PLAIN_SAME } how_usual;
 
 typedef struct {
     ring change; /* as many rows as the DoG looks at, not a power of two; see window_of */
+    float *columns; /* the change, added up down the columns of the patches at work */
     ring inner, outer; /* blurred down the columns */
     ring adapted; /* ON less OFF; zero margins */
     ring apart[2], before[2]; /* where adaptation is off: both channels, and one step ago */
@@ -93,6 +94,7 @@ static inline size_t list_floats(const layout *l) { return (size_t)l->height * (
 static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     int fdsr = l->planes.adapted >= 0;
     s->change = take_short(m, l, 2 * l->outer_radius + 1);
+    s->columns = take(m, (size_t)l->stride);
     s->inner = take_long(m, l, l->outer_radius ? 2 : 0);
     s->outer = take_long(m, l, l->outer_radius ? 2 : 0);
     s->adapted = take_long(m, l, fdsr ? 2 : 0);

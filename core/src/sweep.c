@@ -51,21 +51,26 @@ static void copy_to_tap(const step_plan *p, int tap, const layout *l, int y, con
     if (map) memcpy(map, row, (size_t)l->width * sizeof(float));
 }
 
-static void retina_row(const constants *c, scratch *k, const step_plan *p, int y) {
+static void retina_row(const constants *c, scratch *k, step_plan *p, int y) {
     const layout *l = c->l;
     const char *image = picture_row(&p->image, y);
     float *luma = luma_row(l, c->planes, y);
     float *change = k->change.first + (size_t)((unsigned)y % k->change.rows) * (size_t)k->change.stride;
+    retina_rows r = {luma, change, {NULL}, {NULL}, k->columns};
+    if (p->coarse && y % p->patch == 0) memset(k->columns, 0, (size_t)l->stride * sizeof(float));
     if (c->lgmds_read_change) {
-        float *on = state_row(l, c->planes, l->planes.change, y);
-        retina_rows r = {luma, change, {on, on + l->stride}, {NULL}};
+        r.kept[ON] = state_row(l, c->planes, l->planes.change, y);
+        r.kept[OFF] = r.kept[ON] + l->stride;
         for (int i = 0; i < E_ROWS; i++) r.excitation[i] = row_of(&k->excitation[CHANGE][i], y);
-        retina_row_excites(l->width, p, image, &r);
-        for (int i = 0; i < E_ROWS; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
-    } else {
-        retina_rows r = {luma, change, {NULL}, {NULL}};
-        retina_row_alone(l->width, p, image, &r);
     }
+    if (p->coarse)
+        retina_row_coarse(l->width, p, image, &r, c->lgmds_read_change);
+    else if (c->lgmds_read_change)
+        retina_row_excites(l->width, p, image, &r);
+    else
+        retina_row_alone(l->width, p, image, &r);
+    for (int i = 0; i < E_ROWS && c->lgmds_read_change; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
+    if (p->coarse && y % p->patch == p->patch - 1) hear_patches(l->width, p, k->columns, p->patches);
     copy_to_tap(p, LOBULA_TAP_CHANGE, l, y, change);
 }
 
@@ -300,7 +305,7 @@ static void source_row(const constants *c, scratch *k, const step_plan *p, int s
 
 /* Row y enters; every later layer works on the row that has become possible. What looks along a row comes one push
  * after what wrote it, see SETTLE. */
-static void push_row(const constants *c, scratch *k, const step_plan *p, int y) {
+static void push_row(const constants *c, scratch *k, step_plan *p, int y) {
     const layout *l = c->l;
     int height = l->height, blurred = y - l->outer_radius, laminated = blurred - (l->outer_radius ? SETTLE : 0);
     int moved = laminated - SETTLE;

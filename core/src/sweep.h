@@ -44,6 +44,9 @@ typedef struct {
     picture image;
     float scale, gain, offset; /* P = scale (image - (gain luma + offset)) */
     int flash;
+    int coarse;  /* patches are heard; then the change is also kept within `limit` */
+    int patch;   /* side of one, px */
+    float patch_floor, limit;
     float residual, fdsr_share, dead_zone;
     int spans, span[LOBULA_MAX_SPANS];
     float span_share[LOBULA_MAX_SPANS];
@@ -51,8 +54,8 @@ typedef struct {
     inhibition_set set[MAX_SETS];
     lgmd_plan lgmd[2];
     float *const *taps; /* NULL: none */
-    /* Left behind: the net motion, and the sum of each LGMD's grouped cells. */
-    double hs, total[2];
+    /* Left behind: the net motion, the sum of each LGMD's grouped cells, and what the patches say, ON and OFF. */
+    double hs, total[2], patches[2];
 } step_plan;
 
 typedef struct {

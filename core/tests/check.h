@@ -35,11 +35,13 @@ static inline lobula_params published(void) {
     const lobula_inhibition_params fast = {2.0, 0.5, 0.25, 15.0, 30.0, 45.0, 1.0};
     const lobula_lgmd_params lgmd = {
         .reads = 0, .on = slow, .off = slow, .neighbour_px = 1, .change_scale_grey = 20.0, .change_ms = 10.0,
-        .on_gain = 1.0, .off_gain = 1.0, .product_gain = 0.0, .grouping = {1, 30.0, 0.01, 4.0}, .sigmoid_grey = 1.0,
-        .sfa = {1, 800.0, 0.003}, .spiking = {4.0, 0.7}};
+        .on_gain = 1.0, .off_gain = 1.0, .product_gain = 0.0, .grouping = {1, 30.0, 0.01, 4.0},
+        .coarse_gain = 0.0, .coarse_on_weight = 5.0, .sigmoid_grey = 1.0, .sfa = {1, 800.0, 0.003}, .spiking = {4.0, 0.7}};
     lobula_params p = {
         .clock = {1000.0 / 30.0, 0.75, 500.0, 1, 200.0, 0.1, 8.0},
         .flash = {1, 1.0, 0.8, 3.0, 0.7, 0.2, 5.0},
+        .saturation = {0, 35.0},
+        .coarse = {9, 1.0},
         .lamina = {{1, 2, 2.0, 2, 1e-4}, {0.1}, {1, 1.0}},
         .lgmd1 = lgmd, .lgmd2 = lgmd,
         .lptc = {{4, {1, 2, 3, 4}, {40.0, 30.0, 20.0, 10.0}}, 0.01, {4.0, 0.2}},

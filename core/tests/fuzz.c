@@ -68,6 +68,8 @@ static void draw_lgmd(dice *d, lobula_lgmd_params *p) {
     maybe(d, &p->grouping.threshold_grey, 0, 255);
     maybe(d, &p->grouping.floor_grey, 1e-6, 10);
     maybe(d, &p->grouping.divisor, 0.1, 100);
+    maybe(d, &p->coarse_gain, 0, 100);
+    maybe(d, &p->coarse_on_weight, 0, 100);
     maybe(d, &p->sigmoid_grey, 1e-6, 100);
     maybe_whole(d, &p->sfa.enabled, 0, 1);
     maybe(d, &p->sfa.tau_ms, 10, 10000);
@@ -87,6 +89,10 @@ static lobula_params draw_params(dice *d) {
     maybe(d, &p.flash.min_coverage, 0.5, 1);
     maybe(d, &p.flash.trim, 1, 100);
     maybe(d, &p.flash.min_explained, 0, 1);
+    maybe_whole(d, &p.saturation.enabled, 0, 1);
+    maybe(d, &p.saturation.limit_grey, 1, 255);
+    maybe_whole(d, &p.coarse.patch_px, 1, one_in(d, 4) ? 256 : 12);
+    maybe(d, &p.coarse.floor_grey, 0, one_in(d, 4) ? 255 : 4);
     maybe_whole(d, &p.lamina.dog.enabled, 0, 1);
     maybe_whole(d, &p.lamina.dog.radius_px, 1, one_in(d, 4) ? 32 : 4);
     maybe_whole(d, &p.lamina.dog.surround, 2, 4);
@@ -101,6 +107,7 @@ static lobula_params draw_params(dice *d) {
     } else {
         p.lgmd1.reads = p.lgmd2.reads = below(d, 2);
         p.lgmd1.neighbour_px = p.lgmd2.neighbour_px = 1 + below(d, 4);
+        maybe(d, &p.lgmd2.coarse_gain, 0, 10);
     }
     maybe_whole(d, &p.lptc.emd.spans, 1, LOBULA_MAX_SPANS);
     for (int i = 0; i < (int)p.lptc.emd.spans; i++) {

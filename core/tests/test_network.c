@@ -1,6 +1,8 @@
 /* What the neurons say of pictures drawn here, and that it does not depend on how the frames come. */
 #include "check.h"
 
+#include <math.h>
+
 enum { WIDTH = 99, HEIGHT = 72, FRAMES = 24 };
 
 typedef uint8_t film[FRAMES][HEIGHT][WIDTH];
@@ -66,6 +68,48 @@ static void stillness_is_rest(const lobula_params *p) {
     }
 }
 
+/* What LGMD-2 says when a square of `side` px, its upper left corner at (row, column), changes on a grey of 100. */
+static double said_to_a_square(const lobula_params *p, int row, int column, int side, int change) {
+    static uint8_t pictures[2][HEIGHT][WIDTH];
+    lobula_net net = network(p, WIDTH, HEIGHT, 1);
+    lobula_reading reading;
+    memset(pictures, 100, sizeof pictures);
+    for (int y = row; y < row + side; y++)
+        for (int x = column; x < column + side; x++) pictures[1][y][x] = (uint8_t)(100 + change);
+    for (int t = 0; t < 2; t++) {
+        lobula_images image = bytes_of(pictures[t][0], WIDTH, HEIGHT);
+        CHECK(lobula_step(&net, &image, times_s[t], 0, &reading, NULL) == LOBULA_OK, "a step");
+    }
+    release(&net);
+    return reading.lgmd2;
+}
+
+static int about(double potential, double sum) { return fabs(potential - 1.0 / (1.0 + exp(-sum))) < 1e-6; }
+
+/* LGMD-2 with nothing but patches of 9 px and a floor of 2, of which 11 x 8 fill the picture of 7128 px.
+ *
+ * A square of 18 px that darkens by 10 fills four: OFF = 4 x 81 x (10 - 2) = 2592, and 11 x 2592 / 7128 = 4.
+ * Three columns further it lies on six, in two rows, with means of 20/3, 10 and 10/3: OFF = 2 x 81 x 14 = 2268, which
+ * makes 3.5. What is heard is the whole change, however little of it goes on. */
+static void what_darkens_is_heard_in_patches(void) {
+    lobula_params p = published();
+    p.saturation.enabled = 1;
+    p.saturation.limit_grey = 1;
+    p.coarse.floor_grey = 2.0;
+    p.lgmd2.on_gain = p.lgmd2.off_gain = p.lgmd2.product_gain = 0.0;
+    p.lgmd2.coarse_gain = 11.0;
+    p.lgmd2.sfa.enabled = 0;
+    CHECK(about(said_to_a_square(&p, 27, 45, 18, -10), 4.0), "four patches darken");
+    CHECK(about(said_to_a_square(&p, 27, 48, 18, -10), 3.5), "six patches darken, some of them in part");
+    CHECK(said_to_a_square(&p, 27, 45, 18, 10) == 0.5, "four patches brighten");
+    CHECK(said_to_a_square(&p, 27, 45, 18, -2) == 0.5, "four patches darken too little");
+    CHECK(said_to_a_square(&p, 27, 45, 4, -10) == 0.5, "a mean of 160 / 81 is under the floor");
+    p.coarse.patch_px = 10; /* 9 x 7 of them */
+    CHECK(said_to_a_square(&p, 20, 90, 9, -90) == 0.5, "nobody hears the columns that are left over");
+    p.coarse.patch_px = 73;
+    CHECK(said_to_a_square(&p, 0, 0, 72, -90) == 0.5, "nobody hears patches larger than the picture");
+}
+
 static void blocks_are_steps(const lobula_params *p, film *pictures) {
     lobula_reading one[FRAMES], many[FRAMES];
     lobula_net net = network(p, WIDTH, HEIGHT, 16);
@@ -116,12 +160,19 @@ int main(void) {
     draw();
     for (int reads = 0; reads < 2; reads++) {
         p.lgmd1.reads = p.lgmd2.reads = reads;
+        lobula_params patched = p;
+        patched.saturation.enabled = 1;
+        patched.coarse.patch_px = 7;
+        patched.lgmd2.coarse_gain = 0.1;
         motion_has_a_sign(&p);
         stillness_is_rest(&p);
         blocks_are_steps(&p, &bar);
         blocks_are_steps(&p, &noise);
+        blocks_are_steps(&patched, &bar);
+        blocks_are_steps(&patched, &noise);
         networks_do_not_meet(&p);
     }
+    what_darkens_is_heard_in_patches();
     puts("network: good");
     return 0;
 }

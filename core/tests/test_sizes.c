@@ -60,6 +60,12 @@ static void refused_settings(void) {
     p.lgmd2.reads = 2;
     refused(p, "a layer that does not exist");
     p = published();
+    p.coarse.patch_px = 0;
+    refused(p, "patches of no pixels");
+    p = published();
+    p.coarse.patch_px = NAN;
+    refused(p, "a side that is no number");
+    p = published();
     p.clock.period_ms = 0;
     refused(p, "a clock that stands still");
     p = published();

@@ -13,7 +13,7 @@ from lobula.types import NEURONS, TRACE_DTYPE
 from .engines import needs_core
 from .films import Film, at_hz, drifting, filmed, growing, jittered, lamps, looming, noise, translating, turned
 
-CORE = [pytest.param("core", name, marks=needs_core) for name in ("paper", "published")]
+CORE = [pytest.param("core", name, marks=needs_core) for name in ("paper", "published", "lobula")]
 FILMS = {
     "looming": lambda: filmed(looming(scene="arena")),
     "turning": lambda: turned(filmed(translating(scene="arena"))),

@@ -22,6 +22,7 @@ PARAMS = {
     "published": lobula.preset("published"),
     "no-fdsr": changed(lobula.preset("paper"), lamina={"fdsr": OFF}),
     "reads-mixed": changed(lobula.preset("published"), lgmd1={"reads": "lamina"}),
+    "lobula": lobula.preset("lobula"),
 }
 ENGINES = (pytest.param("core", marks=needs_core), "reference")
 

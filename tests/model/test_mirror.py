@@ -3,6 +3,7 @@
 import pytest
 
 from lobula.model.presets import preset
+from lobula.params import with_settings
 from lobula.stimuli import angular, grating, mirrored, translating
 
 from .movies import approach, run
@@ -17,11 +18,24 @@ MOVIES = {
 }
 
 
-@pytest.mark.parametrize("name", ["published", "paper"])
+# Patches of 8 px fill 64 x 48 px, so that the mirror leaves them where they are.
+PATCHES = {
+    "saturation": {"enabled": True, "limit_grey": 60.0},
+    "coarse": {"patch_px": 8},
+    "lgmd2": {"coarse_gain": 1.0, "coarse_on_weight": 2.0, "sigmoid_grey": 4.0},
+}
+SETTINGS = {
+    "published": preset("published"),
+    "paper": preset("paper"),
+    "patches": with_settings(preset("published"), PATCHES, "test"),
+}
+
+
+@pytest.mark.parametrize("name", SETTINGS)
 @pytest.mark.parametrize("movie", MOVIES)
 def test_mirrored_movie_swaps_the_lptcs(name, movie):
     movie = MOVIES[movie]
-    there, back = (run(preset(name), m.images, m.times_s) for m in (movie, mirrored(movie)))
+    there, back = (run(SETTINGS[name], m.images, m.times_s) for m in (movie, mirrored(movie)))
     for one, other in zip(there, back, strict=True):
         assert one.lptc_r == pytest.approx(-other.lptc_l, abs=1e-6)
         assert one.lptc_l == pytest.approx(-other.lptc_r, abs=1e-6)

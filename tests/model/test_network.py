@@ -7,11 +7,13 @@ import pytest
 
 from lobula.model.network import TAPS, ReferenceNetwork
 from lobula.model.presets import preset
+from lobula.params import with_settings
 from lobula.stimuli import translating
 
 from .movies import approach, collisions, growing, noisy, run, stamps, states
 
 PRESETS = pytest.mark.parametrize("name", ["published", "paper"])
+EVERY = pytest.mark.parametrize("name", ["published", "paper", "lobula"])
 SHAPE = (24, 32)
 
 
@@ -19,7 +21,7 @@ def at_rest(reading):
     return reading[1:6] == (0.5, 0.5, 0.0, 0.0, (0, 0, 0, 0))
 
 
-@PRESETS
+@EVERY
 @pytest.mark.parametrize("rate_hz", [15, 30, 60])
 def test_silence_on_nothing(name, rate_hz):
     """A still scene is silent and, once warm, in order."""
@@ -45,7 +47,7 @@ def test_potentials_stay_in_their_ranges(name):
     assert min(r.lptc_l for r in readings) < -0.9  # and the other
 
 
-@PRESETS
+@EVERY
 def test_adapted_potentials_never_reach_the_third_spike(name):
     # SFA holds an LGMD at or below 800 / 833.3 = 0.96: floor(exp(4 * 0.26)) = 2
     readings = run(preset(name), noisy(20), stamps(20))
@@ -53,7 +55,7 @@ def test_adapted_potentials_never_reach_the_third_spike(name):
     assert {spikes for r in readings for spikes in r.spikes[:2]} <= {0, 1, 2}
 
 
-@PRESETS
+@EVERY
 def test_reset_really_resets(name):
     net = ReferenceNetwork(preset(name), SHAPE)
     images = noisy(12)
@@ -98,6 +100,27 @@ def test_taps_are_maps_of_the_picture_and_change_nothing():
     assert np.array_equal(tapped[3].taps["change"], images[3].astype(np.float32) - images[2])
 
 
+def test_what_saturates_and_what_the_patches_hear():
+    """Half the picture darkens by 60: 20 go on, yet the patches hear it all, and so does the arousal of LGMD-1."""
+    settings = {
+        "saturation": {"enabled": True, "limit_grey": 20.0},
+        "coarse": {"patch_px": 8, "floor_grey": 2.0},  # 3 x 4 patches, 6 of which darken
+        "lgmd2": {"on_gain": 0.0, "off_gain": 0.0, "product_gain": 0.0, "coarse_gain": 1.0, "sigmoid_grey": 29.0},
+    }
+    net = ReferenceNetwork(with_settings(preset("published"), settings, "test"), SHAPE)
+    image = np.full(SHAPE, 100, np.uint8)
+    net.step(image, 0.0)
+    image[:, 16:] = 40
+    reading = net.step(image, 1 / 30, taps=("change", "lgmd1_summation", "lgmd1_inhibition_off"))
+    assert set(np.unique(reading.taps["change"])) == {-20.0, 0.0}
+    # OFF = 6 * 64 * (60 - 2) = 29 * 768; K = 1 / (1 + exp(-1)) = 0.731059, U = 0.96 K
+    assert reading.lgmd2 == pytest.approx(0.96 * 0.731059, abs=1e-5)
+    # arousal 1000/30 / (1000/30 + 10) * 30 / 20 = 1.153846 is the bias: a mean change of 30, not of 10
+    cell, inhibition = (reading.taps[f"lgmd1_{name}"][12, 24] for name in ("summation", "inhibition_off"))
+    assert inhibition == pytest.approx(20 * 0.652659, rel=1e-5)
+    assert cell == pytest.approx(20 * (1 - 1.153846 * 0.652659), rel=1e-4)
+
+
 def test_only_the_taps_asked_for_are_returned():
     net = ReferenceNetwork(preset(), SHAPE)
     assert set(net.step(noisy(1)[0], 0.0, taps=("motion",)).taps) == {"motion"}
@@ -125,7 +148,7 @@ def test_warm_up_spikes_do_not_count():
     assert collisions(run(cold, images, stamps(11)))[0] < 6
 
 
-@PRESETS
+@EVERY
 @pytest.mark.parametrize("factor", [2, 4])
 def test_fast_sources_are_sampled_at_the_tick(name, factor):
     """60 and 120 Hz: the pictures in between may be anything."""
@@ -136,7 +159,7 @@ def test_fast_sources_are_sampled_at_the_tick(name, factor):
     assert all(not any(r.spikes) for k, r in enumerate(readings) if k % factor)
 
 
-@PRESETS
+@EVERY
 def test_repeats_in_a_file_are_neither_stillness_nor_double_motion(name):
     """A 10 Hz source in a 30 Hz file reads as the 10 Hz source itself."""
     slow = noisy(12)
@@ -156,7 +179,7 @@ def test_compressed_repeats_count_as_repeats():
     assert readings[::3] == run(preset(), slow, stamps(8, 10))
 
 
-@PRESETS
+@EVERY
 def test_gap_starts_afresh(name):
     images = noisy(20)
     times = [*stamps(10, 31), *(1.0 + t for t in stamps(10, 31))]  # at 31 Hz no frame falls on 200 ms

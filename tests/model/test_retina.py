@@ -1,12 +1,23 @@
-"""The change of luminance and what sums it up."""
+"""The change of luminance, its limit, and what sums it up."""
+
+import math
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lobula.model.retina import SAME_LIGHT, Light, change_statistics, frame_difference
+from lobula.errors import ParameterError
+from lobula.model.retina import (
+    SAME_LIGHT,
+    Light,
+    SaturationParams,
+    change_statistics,
+    frame_difference,
+    saturate,
+)
 
-from .pictures import channels, few, noise
+from .pictures import channels, few, noise, signed
 
 pictures = st.integers(0, 2**31 - 1).map(lambda seed: np.random.default_rng(seed).integers(0, 256, (2, 6, 8), np.uint8))
 
@@ -69,3 +80,38 @@ def test_inputs_are_not_modified():
         change_statistics(image, previous)
     assert np.array_equal(image, copies[0])
     assert np.array_equal(previous, copies[1])
+
+
+def test_golden_limit_by_hand():
+    change = np.array([[0, 12, -12], [12.5, -90, 255]], np.float32)
+    limited = saturate(change, SaturationParams(enabled=True, limit_grey=12.0))
+    assert limited.tolist() == [[0, 12, -12], [12, -12, 12]]
+
+
+@few
+@given(signed, st.floats(1, 255))
+def test_saturation_is_odd_and_bounded_and_leaves_small_changes_alone(change, limit):
+    p, copy = SaturationParams(enabled=True, limit_grey=limit), change.copy()
+    limited = saturate(change, p)
+    assert limited.dtype == np.float32
+    assert (np.abs(limited) <= np.float32(limit)).all()
+    assert (np.sign(limited) == np.sign(change)).all()
+    small = np.abs(change) <= np.float32(limit)
+    assert (limited[small] == change[small]).all()
+    assert np.array_equal(saturate(-change, p), -limited)
+    assert np.array_equal(saturate(limited, p), limited)
+    assert np.array_equal(change, copy)
+
+
+def test_a_change_that_does_not_saturate_goes_on_as_it_is():
+    change = noise(0, low=-255.0)
+    assert np.array_equal(saturate(change, SaturationParams(enabled=False, limit_grey=1.0)), change)
+
+
+@pytest.mark.parametrize(
+    ("name", "bad"),
+    [("enabled", 1), ("enabled", "on"), ("limit_grey", 0.5), ("limit_grey", 256.0), ("limit_grey", math.nan)],
+)
+def test_saturation_rejects(name, bad):
+    with pytest.raises(ParameterError, match=rf"SaturationParams\.{name} = "):
+        SaturationParams(**{name: bad})

@@ -5,9 +5,10 @@ import pytest
 from lobula.errors import ParameterError
 from lobula.model.presets import preset
 from lobula.model.scaling import scaled
-from lobula.params import to_dict
+from lobula.params import to_dict, with_settings
 
 P = preset("published")
+NINE = with_settings(P, {"coarse": {"patch_px": 9}}, "test")
 
 
 @pytest.mark.parametrize("width", [32, 64, 99, 148])  # 148 / 99 = 1.495
@@ -21,6 +22,7 @@ def test_golden_kernels_grow_with_the_width(width, s):
     assert (p.lamina.dog.radius_px, p.lamina.dog.sigma_px) == (2 * s, 2.0 * s)
     assert p.lptc.emd.spans_px == (s, 2 * s, 3 * s, 4 * s)
     assert p.lgmd1.neighbour_px == p.lgmd2.neighbour_px == s
+    assert scaled(NINE, width).coarse.patch_px == 9 * s
 
 
 def test_nothing_else_changes():
@@ -28,6 +30,7 @@ def test_nothing_else_changes():
     for settings in (p, base):
         for name in ("radius_px", "sigma_px"):
             del settings["lamina"]["dog"][name]
+        del settings["coarse"]["patch_px"]
         del settings["lptc"]["emd"]["spans_px"], settings["lgmd1"]["neighbour_px"], settings["lgmd2"]["neighbour_px"]
     assert p == base
 

@@ -65,10 +65,15 @@ def grouping(rows: Rows, threshold: float = 30.0, floor: float = 0.01) -> Rows:
     return [[g if g >= threshold else 0.0 for g in line] for line in grouped]
 
 
-def sigmoid(rows: Rows, c_sig: float = 1.0) -> float:
-    """K: from 0.5 for an empty map up to 1."""
+def sigmoid(rows: Rows, c_sig: float = 1.0, beside: float = 0.0) -> float:
+    """K: from 0.5 for an empty map up to 1; ``beside`` is what excites besides the map."""
     pixels = len(rows) * len(rows[0])
-    return 1 / (1 + math.exp(-sum(map(sum, rows)) / (pixels * c_sig)))
+    return 1 / (1 + math.exp(-(sum(map(sum, rows)) + beside) / (pixels * c_sig)))
+
+
+def looming(on: float, off: float, gain: float, on_weight: float) -> float:
+    """What patches that darken add, where those that brighten do not outweigh them."""
+    return gain * max(off - on_weight * on, 0.0)
 
 
 def adaptation(raw: float, raw_before: float, u_before: float, dt_ms: float = CLOCK_MS) -> float:

@@ -1,14 +1,15 @@
-"""The whole network, step by step, both base presets; no flash, no turning, no repeats."""
+"""The whole network, step by step, as the presets wire it; no flash, no turning, no repeats."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from .coarse import heard, saturated
 from .decision import Step, decide, spike_count
 from .dog import dog
 from .emd import correlate, potentials, spans
 from .lamina import CLOCK_MS, Rows, fdsr, on_off, share
-from .lgmd import Rings, adaptation, competition, grouping, inhibition, sigmoid, summation
+from .lgmd import Rings, adaptation, competition, grouping, inhibition, looming, sigmoid, summation
 
 SLOW = (60.0, 120.0, 180.0)
 LOW = (1.0, 0.25, 0.125)
@@ -39,6 +40,12 @@ class Wiring:
     floor: float
     c_sig: float
     k_hs: float
+    limit: float = 255.0
+    side: int = 9
+    noise: float = 1.0
+    gains: tuple[float, float] = (0.0, 0.0)
+    """What patches weigh for LGMD-1 and LGMD-2, and how many times those that brighten are taken off."""
+    on_weights: tuple[float, float] = (0.0, 0.0)
 
 
 PUBLISHED = Wiring(False, 30.0, 0.01, 1.0, 0.01)
@@ -71,15 +78,17 @@ class Oracle:
         residual = 0.1**ticks
         p = [[(new - old) / ticks**0.75 for new, old in zip(*lines, strict=True)]
              for lines in zip(picture, self.luma, strict=True)]  # fmt: skip
+        pixels = len(p) * len(p[0])
+        mean_change = sum(abs(v) for line in p for v in line) / pixels
+        patches = heard(p, wiring.side, wiring.noise)
+        p = saturated(p, wiring.limit)
         la = dog(p)
         change, lamina = on_off(p, *self.change, residual), on_off(la, *self.lamina, residual)
         adapted = tuple(fdsr(now, before) for now, before in zip(lamina, self.lamina, strict=True))
         self.maps = {"change": p, "lamina": la, "adapted_on": adapted[0], "adapted_off": adapted[1]}
         now, before = (adapted, self.adapted) if wiring.reads_lamina else (change, self.change)
         on, off = zip(now, before, strict=True)
-        pixels = len(p) * len(p[0])
-        mean_change = sum(abs(v) for line in p for v in line) / pixels
-        for name, lgmd in LGMDS.items():
+        for (name, lgmd), gain, on_weight in zip(LGMDS.items(), wiring.gains, wiring.on_weights, strict=True):
             a = share(lgmd.change_ms)
             arousal = (a * mean_change + (1 - a) * self.mean_change) / 20
             i_on, i_off = inhibition(*on, lgmd.on), inhibition(*off, lgmd.off)
@@ -87,7 +96,7 @@ class Oracle:
             s_off = competition(off[0], i_off, max(lgmd.off.bias, arousal))
             s = summation(s_on, s_off, lgmd.thetas)
             g = grouping(s, wiring.threshold, wiring.floor)
-            raw = sigmoid(g, wiring.c_sig)
+            raw = sigmoid(g, wiring.c_sig, looming(*patches, gain, on_weight))
             self.u[name] = adaptation(raw, self.raw[name], self.u[name], dt_ms)
             self.raw[name] = raw
             layers = {"inhibition_on": i_on, "inhibition_off": i_off, "summation": s, "grouped": g}

@@ -37,6 +37,14 @@ class FlashParams(Structure):
     ]
 
 
+class SaturationParams(Structure):
+    _fields_ = [("enabled", c_double), ("limit_grey", c_double)]
+
+
+class CoarseParams(Structure):
+    _fields_ = [("patch_px", c_double), ("floor_grey", c_double)]
+
+
 class DogParams(Structure):
     _fields_ = [(n, c_double) for n in ("enabled", "radius_px", "sigma_px", "surround", "dead_zone_grey")]
 
@@ -85,7 +93,8 @@ class LgmdParams(Structure):
         ("reads", c_double), ("on", InhibitionParams), ("off", InhibitionParams),
         *((n, c_double) for n in (
             "neighbour_px", "change_scale_grey", "change_ms", "on_gain", "off_gain", "product_gain")),
-        ("grouping", GroupingParams), ("sigmoid_grey", c_double), ("sfa", SfaParams), ("spiking", SpikingParams),
+        ("grouping", GroupingParams), ("coarse_gain", c_double), ("coarse_on_weight", c_double),
+        ("sigmoid_grey", c_double), ("sfa", SfaParams), ("spiking", SpikingParams),
     ]  # fmt: skip
 
 
@@ -108,8 +117,9 @@ class CoreParams(Structure):
     """``lobula_params``."""
 
     _fields_ = [
-        ("clock", ClockParams), ("flash", FlashParams), ("lamina", LaminaParams), ("lgmd1", LgmdParams),
-        ("lgmd2", LgmdParams), ("lptc", LptcParams), ("decision", DecisionParams),
+        ("clock", ClockParams), ("flash", FlashParams), ("saturation", SaturationParams), ("coarse", CoarseParams),
+        ("lamina", LaminaParams), ("lgmd1", LgmdParams), ("lgmd2", LgmdParams), ("lptc", LptcParams),
+        ("decision", DecisionParams),
     ]  # fmt: skip
 
 

@@ -19,9 +19,19 @@ from .clock import SLACK_MS, Beat, Clock, ClockParams
 from .decision import Decision, DecisionParams
 from .lamina import Lamina, LaminaParams, OnOff
 from .lamina.on_off import split_on_off
+from .medulla.coarse import CoarseParams, coarse
 from .neurons.lgmd import Lgmd, LgmdParams
 from .neurons.lptc import Lptc, LptcParams
-from .retina import SAME_LIGHT, FlashParams, Light, change_statistics, find_flash, frame_difference
+from .retina import (
+    SAME_LIGHT,
+    FlashParams,
+    Light,
+    SaturationParams,
+    change_statistics,
+    find_flash,
+    frame_difference,
+    saturate,
+)
 from .state import StateDict, load_state_dict, state_dict
 
 LGMD_MAPS = ("inhibition_on", "inhibition_off", "summation", "grouped")
@@ -38,6 +48,8 @@ class NetworkParams(Params):
 
     clock: ClockParams = field(default_factory=ClockParams)
     flash: FlashParams = field(default_factory=FlashParams)
+    saturation: SaturationParams = field(default_factory=SaturationParams)
+    coarse: CoarseParams = field(default_factory=CoarseParams)
     lamina: LaminaParams = field(default_factory=LaminaParams)
     lgmd1: LgmdParams = field(default_factory=LgmdParams)
     lgmd2: LgmdParams = field(default_factory=LgmdParams)
@@ -113,8 +125,10 @@ class ReferenceNetwork:
         ticks = dt_ms / self.p.clock.period_ms
         residual = self.p.lamina.on_off.residual**ticks
         change_scale = ticks**-self.p.clock.change_exponent
-        p = frame_difference(image, self.luma, change_scale, light or SAME_LIGHT)
-        mean_change = float(np.abs(p).sum(dtype=np.float64)) / p.size
+        whole = frame_difference(image, self.luma, change_scale, light or SAME_LIGHT)
+        mean_change = float(np.abs(whole).sum(dtype=np.float64)) / whole.size
+        patches = coarse(whole, self.p.coarse)
+        p = saturate(whole, self.p.saturation)
         lamina = self.lamina.step(p, residual, self.p.clock.period_ms)
         change = OnOff(*split_on_off(p, *self.change, residual))
         maps: dict[str, Image] = {
@@ -124,7 +138,7 @@ class ReferenceNetwork:
         for name, lgmd in zip(("lgmd1", "lgmd2"), self.lgmds, strict=True):
             reads_change = lgmd.p.reads == "change"
             now, before = (change, self.change) if reads_change else (lamina.adapted, lamina.adapted_before)
-            layers = lgmd.step(now, before, mean_change, dt_ms)
+            layers = lgmd.step(now, before, patches, mean_change, dt_ms)
             maps |= {f"{name}_{layer}": image for layer, image in layers.items()}
         maps["motion"] = self.lptc.step(lamina.adapted, lamina.adapted_before, ticks, change_scale)
         self.luma, self.change, self.flashing = image.astype(np.float32), change, light is not None

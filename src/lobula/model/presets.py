@@ -26,21 +26,32 @@ LGMD_ON_LAMINA: Settings = {
     "sigmoid_grey": 0.0048,
 }
 ON_LAMINA: Settings = {"lgmd1": LGMD_ON_LAMINA, "lgmd2": LGMD_ON_LAMINA, "lptc": {"sigmoid_grey2": 0.002}}
-BASES: dict[str, dict[str, Settings]] = {
+IN_THE_ARENA = "calibrated in the arena, seeds 121 to 140 (docs/protocol.md)"
+LGMD2_WITH_PATCHES: Settings = {
+    "saturation": {"enabled": True},
+    "lgmd2": {"grouping": {"threshold_grey": 5.0}, "coarse_gain": 6.5, "coarse_on_weight": 8.0, "sigmoid_grey": 1.8},
+    "decision": {"neurons": "lgmd2"},
+}
+PRESETS: dict[str, dict[str, Settings]] = {
     "published": PUBLISHED,
     "paper": {**PUBLISHED, CALIBRATED: ON_LAMINA},
+    "lobula": {**PUBLISHED, IN_THE_ARENA: LGMD2_WITH_PATCHES},
 }
-"""For each base preset, the settings that differ from the declared defaults, by origin."""
+"""For each preset, the settings that differ from the declared defaults, by origin."""
+
+BASES = ("published", "paper")
+"""The presets of the paper's wiring, in which who decides can be selected."""
 
 DEFAULT = "paper"
-NAMES = ("default", *BASES)
+NAMES = ("default", *PRESETS)
 NEURONS = ("all", "lgmds", "lgmd2")
 
 
-def preset(name: str = "default", *, neurons: str = "all") -> NetworkParams:
-    """Return the settings of a preset: ``paper``, ``published`` or ``default``.
+def preset(name: str = "default", *, neurons: str | None = None) -> NetworkParams:
+    """Return the settings of a preset: ``paper``, ``published``, ``lobula`` or ``default``.
 
-    ``neurons`` selects who decides: ``all`` four, the two ``lgmds``, or ``lgmd2`` alone.
+    ``neurons`` selects who decides: ``all`` four, the two ``lgmds``, or ``lgmd2`` alone; without it, whoever does in
+    the preset: all four in the paper's, LGMD-2 in ``lobula``.
 
     Raises
     ------
@@ -48,10 +59,12 @@ def preset(name: str = "default", *, neurons: str = "all") -> NetworkParams:
     """
     if name not in NAMES:
         raise ParameterError(f"preset {name!r}: must be one of {', '.join(NAMES)}")
-    if neurons not in NEURONS:
+    if neurons is not None and neurons not in NEURONS:
         raise ParameterError(f"neurons {neurons!r}: must be one of {', '.join(NEURONS)}")
     params = NetworkParams()
-    for origin, settings in BASES[DEFAULT if name == "default" else name].items():
+    for origin, settings in PRESETS[DEFAULT if name == "default" else name].items():
         params = with_settings(params, settings, origin)
+    if neurons is None:
+        return params
     chosen: NetworkParams = with_settings(params, {"decision": {"neurons": neurons}}, "chosen by the caller")
     return chosen

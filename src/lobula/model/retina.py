@@ -35,6 +35,14 @@ class FlashParams(Params):
     max_gain: float = param(5.0, "", "largest gain", low=1, high=100, source="chosen")
 
 
+@dataclass(frozen=True, kw_only=True)
+class SaturationParams(Params):
+    """Strong changes count no more than middling ones, so that a near body and a near wall weigh alike."""
+
+    enabled: bool = param(False, "", "limit the change that goes on to the lamina and the LGMDs", source="chosen")
+    limit_grey: float = param(35.0, "grey", "largest change that goes on", low=1, high=255, source="chosen")
+
+
 NOISE_GREY2 = 4.5
 """Variance that sensor noise of 1.5 grey in each of two pictures leaves between them, whatever the light."""
 
@@ -119,3 +127,14 @@ def frame_difference(image: NDArray[Any], previous: Image, scale: float, light: 
     if light is SAME_LIGHT:
         return (now - previous) * np.float32(scale)
     return (now - (np.float32(light.gain) * previous + np.float32(light.offset))) * np.float32(scale)
+
+
+def saturate(change: Image, p: SaturationParams) -> Image:
+    """Return ``change`` (H, W) kept within +- ``limit_grey``.
+
+    Source: photoreceptors and lamina cells compress contrast; the hard limit is the plainest form of it.
+    """
+    if not p.enabled:
+        return change
+    limit = np.float32(p.limit_grey)
+    return np.clip(change, -limit, limit)

@@ -13,8 +13,8 @@ DESIGN_WIDTH = 99
 def scaled(params: NetworkParams, width: int) -> NetworkParams:
     """Return ``params`` with kernels that cover the same part of a picture ``width`` px wide.
 
-    With s = width / 99, rounded and at least 1: radius and sigma of the DoG, the spans of the EMDs and the distance
-    of the neighbours in inhibition and grouping, all in px, times s. Nothing else changes.
+    With s = width / 99, rounded and at least 1: radius and sigma of the DoG, the spans of the EMDs, the distance
+    of the neighbours in inhibition and grouping and the coarse patches, all in px, times s. Nothing else changes.
 
     Raises
     ------
@@ -28,5 +28,10 @@ def scaled(params: NetworkParams, width: int) -> NetworkParams:
     emd = replace(emd, spans_px=tuple(s * span for span in emd.spans_px))
     lgmd1, lgmd2 = (replace(q, neighbour_px=s * q.neighbour_px) for q in (params.lgmd1, params.lgmd2))
     return replace(
-        params, lamina=replace(params.lamina, dog=dog), lptc=replace(params.lptc, emd=emd), lgmd1=lgmd1, lgmd2=lgmd2
+        params,
+        lamina=replace(params.lamina, dog=dog),
+        lptc=replace(params.lptc, emd=emd),
+        lgmd1=lgmd1,
+        lgmd2=lgmd2,
+        coarse=replace(params.coarse, patch_px=s * params.coarse.patch_px),
     )

@@ -12,6 +12,7 @@ from ...params import Params, param
 from ...types import Image
 from ..filters import low_pass_share
 from ..lamina import OnOff
+from ..medulla.coarse import Coarse
 from ..medulla.grouping import GroupingParams, group
 from ..medulla.lateral_inhibition import InhibitionParams, compete, lateral_inhibition
 from .sfa import SfaParams, adapt
@@ -51,6 +52,13 @@ class LgmdParams(Params):
         0.0, "1/grey", "theta 3: weight of ON times OFF", low=0, high=8, source="published code: NewLGMDs"
     )
     grouping: GroupingParams = field(default_factory=GroupingParams)
+    coarse_gain: float = param(
+        0.0, "", "weight of patches that darken, beside the grouped cells; 0: not heard", low=0, high=100,
+        source="chosen",
+    )  # fmt: skip
+    coarse_on_weight: float = param(
+        5.0, "", "patches that brighten are taken off so many times", low=0, high=100, source="chosen"
+    )
     sigmoid_grey: float = param(
         1.0, "grey", "C_sig: sum for each pixel that drives the sigmoid", low=1e-6, high=100,
         source="published code: NewLGMDs",
@@ -72,11 +80,11 @@ class Lgmd:
         self.raw = self.potential = 0.5
         self.change_before = 0.0
 
-    def step(self, now: OnOff, before: OnOff, mean_change: float, dt_ms: float) -> Mapping[str, Image]:
+    def step(self, now: OnOff, before: OnOff, patches: Coarse, mean_change: float, dt_ms: float) -> Mapping[str, Image]:
         """Advance one step and return the maps of this neuron by layer.
 
-        ``now`` and ``before`` are the channels it reads, this step and the one before; ``mean_change`` is the mean of
-        |P| over the picture, grey.
+        ``now`` and ``before`` are the channels it reads, this step and the one before; ``patches`` is what the coarse
+        cells say; ``mean_change`` is the mean of |P| over the picture, grey.
         """
         p = self.p
         share = low_pass_share(self.clock_ms, p.change_ms)
@@ -91,7 +99,9 @@ class Lgmd:
         on, off = branches
         s = np.float32(p.on_gain) * on + np.float32(p.off_gain) * off + np.float32(p.product_gain) * (on * off)
         grouped = group(s, p.grouping, p.neighbour_px)
-        raw = min(BELOW_ONE, 1.0 / (1.0 + math.exp(-grouped.total / (s.size * p.sigmoid_grey))))
+        looming = max(0.0, patches.off - p.coarse_on_weight * patches.on)
+        total = grouped.total + p.coarse_gain * looming
+        raw = min(BELOW_ONE, 1.0 / (1.0 + math.exp(-total / (s.size * p.sigmoid_grey))))
         self.potential = adapt(raw, self.raw, self.potential, p.sfa, dt_ms, self.clock_ms)
         self.raw = raw
         return {**maps, "summation": s, "grouped": grouped.image}
