@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from ..experiments.closed_loop.table_jobs import TablePlan
 
 TABLE = "table1"
-PRESET = "paper"
-"""What the table is made of where nothing else is asked for."""
+PRESET, OWN = "paper", "lobula"
+"""The table is made of these: the paper's three models of a base preset, where no other is asked for, and our own."""
 
 
 def table_plan(
@@ -28,8 +28,11 @@ def table_plan(
     from ..experiments.closed_loop import table1
     from ..experiments.closed_loop.table_jobs import TablePlan
     from ..experiments.closed_loop.table_page import TEST_SEEDS
+    from ..model.presets import BASES
     from ..model.presets import preset as named_preset
 
+    if preset is not None and preset not in BASES:
+        raise ParameterError(f"--preset {preset}: must be one of {', '.join(BASES)}")
     name = PRESET if preset is None else preset
     first = table1.QUICK_FIRST_SEED if quick else table1.FIRST_SEED
     repeats = table1.QUICK_SEEDS if quick else table1.SEEDS
@@ -42,7 +45,8 @@ def table_plan(
         raise ParameterError(
             f"--quick with seeds {seeds[0]} to {seeds[-1]}: must not use 7000 to 7999, kept for the table"
         )
-    return TablePlan(presets={name: named_preset(name)}, seeds=seeds, minutes=length)
+    own = {OWN: named_preset(OWN)}
+    return TablePlan(presets={name: named_preset(name)}, own=own, seeds=seeds, minutes=length)
 
 
 def make_table(plan: TablePlan, folder: Path, quick: bool, workers: int | None) -> dict[str, Any]:

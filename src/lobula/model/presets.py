@@ -26,10 +26,10 @@ LGMD_ON_LAMINA: Settings = {
     "sigmoid_grey": 0.0048,
 }
 ON_LAMINA: Settings = {"lgmd1": LGMD_ON_LAMINA, "lgmd2": LGMD_ON_LAMINA, "lptc": {"sigmoid_grey2": 0.002}}
-IN_THE_ARENA = "calibrated in the arena, seeds 121 to 140 (docs/protocol.md)"
+IN_THE_ARENA = "calibrated in the arena, seeds 121 to 132 (docs/protocol.md)"
 LGMD2_WITH_PATCHES: Settings = {
-    "saturation": {"enabled": True},
-    "lgmd2": {"grouping": {"threshold_grey": 5.0}, "coarse_gain": 6.5, "coarse_on_weight": 8.0, "sigmoid_grey": 1.8},
+    "saturation": {"enabled": True, "limit_grey": 50.0},
+    "lgmd2": {"grouping": {"threshold_grey": 5.0}, "coarse_gain": 8.0, "coarse_on_weight": 6.0, "sigmoid_grey": 2.0},
     "decision": {"neurons": "lgmd2"},
 }
 PRESETS: dict[str, dict[str, Settings]] = {

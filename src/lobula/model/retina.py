@@ -40,7 +40,7 @@ class SaturationParams(Params):
     """Strong changes count no more than middling ones, so that a near body and a near wall weigh alike."""
 
     enabled: bool = param(False, "", "limit the change that goes on to the lamina and the LGMDs", source="chosen")
-    limit_grey: float = param(35.0, "grey", "largest change that goes on", low=1, high=255, source="chosen")
+    limit_grey: float = param(50.0, "grey", "largest change that goes on", low=1, high=255, source="chosen")
 
 
 NOISE_GREY2 = 4.5

@@ -53,6 +53,14 @@ class TestVariants:
         assert found["collision_spikes", "8"].decision.collision_spikes == 8
         assert found["LGMD-2 alone", ""].decision.neurons == "lgmd2"
 
+    def test_levers_of_our_own_preset(self):
+        own = preset("lobula")
+        found = {(v.series, v.value): v.params for v in trade_off.variants() if v.base == "lobula"}
+        assert found["coarse_gain", "x0"].lgmd2.coarse_gain == 0
+        assert found["coarse_gain", "x0"].lgmd2.coarse_on_weight == own.lgmd2.coarse_on_weight
+        assert found["coarse_on_weight", "x2"].lgmd2.coarse_on_weight == 2 * own.lgmd2.coarse_on_weight
+        assert {params.decision.neurons for params in found.values()} == {"lgmd2"}
+
     def test_the_preset_itself_is_run_once(self):
         plan = ScanPlan(seeds=[1], minutes=1, densities=[4])
         chosen = [v for v in trade_off.variants() if v.base == "paper"]
@@ -112,7 +120,7 @@ class TestRuns:
 
     def test_the_command_writes_figures_and_pages(self, tmp_path, monkeypatch, capsys):
         pytest.importorskip("matplotlib")
-        few = [v for v in trade_off.variants() if v.series == "lptc_weight" and v.value in ("0", "1")]
+        few = [v for v in trade_off.variants() if v.series == "collision_spikes" and v.value in ("2", "4")]
         monkeypatch.setattr(trade_off, "variants", lambda: few)
         arguments = [
             "--out",
@@ -129,7 +137,7 @@ class TestRuns:
         assert trade_off.main(arguments) == 0
         assert capsys.readouterr().out.strip() == str(tmp_path / "t")
         files = {path.name for path in (tmp_path / "t").iterdir()}
-        assert {"trade-off.md", "trade-off.csv", "trade-off-paper.png", "trade-off-published.svg"} <= files
+        assert {"trade-off.md", "trade-off.csv", "trade-off-paper.png", "trade-off-published.svg", "trade-off-lobula.png"} <= files
 
     def test_the_drawing_of_the_sensitivity(self):
         pytest.importorskip("matplotlib")

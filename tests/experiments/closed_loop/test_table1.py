@@ -17,7 +17,9 @@ from .hand_made import done
 
 pytest.importorskip("matplotlib")
 
-PLAN = TablePlan(presets={"paper": preset("paper")}, seeds=range(31, 33), minutes=0.03)
+PLAN = TablePlan(
+    presets={"paper": preset("paper")}, own={"lobula": preset("lobula")}, seeds=range(31, 33), minutes=0.03
+)
 TABLES = ("table1.csv", "table1-events.csv", "table1.json", "table1.md", "table1.png", "table1-walls.svg")
 TIMES = ("seconds_eye", "seconds_network", "seconds_physics", "seconds_scoring")
 
@@ -37,10 +39,10 @@ def made(tmp_path_factory):
 def test_every_job_is_a_row(made):
     folder, _, steps = made
     found = rows(folder)
-    assert len(found) == steps == PLAN.job_count == 24
+    assert len(found) == steps == PLAN.job_count == 28
     assert {(row["model"], row["robots"], row["seed"]) for row in found} == {
         (model, robots, seed)
-        for model in ("paper-lgmd2", "paper-lgmds", "paper-all", "always-turn", "never-turn", "random-turn")
+        for model in ("paper-lgmd2", "paper-lgmds", "paper-all", "lobula", "always-turn", "never-turn", "random-turn")
         for robots in ("4", "7")
         for seed in ("31", "32")
     }
@@ -62,11 +64,14 @@ def test_document_and_page(made):
     page = (folder / "table1.md").read_text()
     assert "**A quick look, no result:**" in page
     assert "| 7 | the proposed model | 83.4 % |" in page
-    assert {verdict["status"] for claim in found["claims"] for verdict in claim["verdicts"].values()} == {"undecided"}
+    claims = [*found["claims"], *found["beyond"]]
+    assert {verdict["status"] for claim in claims for verdict in claim["verdicts"].values()} == {"undecided"}
+    assert [list(claim["verdicts"]) for claim in found["beyond"]] == [["lobula"]] * 3
+    assert "## Beyond the paper" in page
     log = [json.loads(line) for line in (folder / "runs.ndjson").read_text().splitlines()]
     assert [line["phase"] for line in log] == ["start", "end"]
     assert log[0]["seeds"] == [31, 32]
-    assert {"date", "version", "code", "world", "presets"} <= set(log[0])
+    assert {"date", "version", "code", "world", "presets", "own"} <= set(log[0])
 
 
 def test_half_a_table_ends_like_a_whole_one(made, tmp_path, monkeypatch):
@@ -89,6 +94,7 @@ def test_random_turns_are_as_frequent_as_the_models(made):
 
 def test_the_models_differ_in_who_decides_only():
     drivers = {job.model: job.driver for job in model_jobs(PLAN)}
+    assert drivers.pop("lobula") == preset("lobula")
     assert {driver.decision.neurons for driver in drivers.values()} == {"lgmd2", "lgmds", "all"}
     assert len({(driver.lgmd1, driver.lgmd2, driver.lptc) for driver in drivers.values()}) == 1
 

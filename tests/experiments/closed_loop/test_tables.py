@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 
+from lobula.experiments.closed_loop.beyond_claims import BEYOND
 from lobula.experiments.closed_loop.paper_table import LABELS, PAPER
 from lobula.experiments.closed_loop.table_claims import CLAIMS, Models
 from lobula.experiments.closed_loop.table_jobs import grouped
@@ -143,6 +144,31 @@ class TestClaims:
         found = {claim.number: claim.verdict(models) for claim in CLAIMS if claim.number in ("T.9", "T.10")}
         assert [found[n]["status"] for n in ("T.9", "T.10")] == ["holds", "holds"]
         assert found["T.9"]["conditions"][0]["numbers"] == "+50.0 deg (50.0 to 50.0)"
+
+
+class TestBeyond:
+    """Two of the paper's models at once: the walls of LGMD-2 alone, the robots of the proposed model."""
+
+    def verdicts(self, ap, aa):
+        cells = like_the_paper()
+        own = {("own", r): {**cells["lgmd2", r], **{k: cells["all", r][k] for k in ("AA", "AT", "CR")}} for r in (4, 7)}
+        for kinds in own.values():
+            kinds["AP"] += ap
+            kinds["AA"] += aa
+        groups = {**table_of(cells), **{("own", r): group(done("own", r, s, **own["own", r]) for s in SEEDS)
+                                        for r in (4, 7)}}  # fmt: skip
+        return {claim.number: claim.verdict(Models(groups, "p", "own")) for claim in BEYOND}
+
+    def test_as_good_as_both(self):
+        found = self.verdicts(0, 0)
+        assert [found[number]["status"] for number in ("B.1", "B.2")] == ["holds", "holds"]
+        assert {number: of["trials"] for number, of in found.items()} == {"B.1": 2, "B.2": 6, "B.3": 4}
+
+    def test_better_than_both(self):
+        assert self.verdicts(500, 500)["B.3"]["status"] == "holds"
+
+    def test_below_both(self):
+        assert {of["status"] for of in self.verdicts(-400, -350).values()} == {"does not hold"}
 
 
 def test_the_papers_table():

@@ -15,7 +15,7 @@ from .scan import Results, ScanPlan, Variant, made_by, rate_cells, run_scan, wri
 from .scan_command import command
 from .tables import Group
 
-NAME = "negative-controls"
+NAME, OWN = "negative-controls", "lobula"
 
 LIGHTS = {
     "steady light": LightParams(),
@@ -39,15 +39,14 @@ def worlds() -> Iterator[tuple[str, str, World]]:
 
 
 def variants() -> list[Variant]:
-    """Return the paper's three models on both presets in every arena."""
+    """Return the paper's three models on both base presets, and our own, in every arena."""
+    models = {f"{base}: {label}": preset(base, neurons=n) for base in BASES for n, label in LABELS.items()}
+    models |= {f"ours, {OWN}": preset(OWN)}
     return [
-        Variant(
-            base=f"{base}: {label}", series=what, value=light, params=preset(base, neurons=neurons), world=world
-        )
+        Variant(base=name, series=what, value=light, params=params, world=world)
         for what, light, world in worlds()
-        for base in BASES
-        for neurons, label in LABELS.items()
-    ]  # fmt: skip
+        for name, params in models.items()
+    ]
 
 
 def make(plan: ScanPlan, folder: Path, workers: int, advance: Callable[[], None] | None = None) -> Results:

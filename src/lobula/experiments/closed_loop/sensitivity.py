@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NAME = "sensitivity"
-BASE = "paper"
+BASE, OWN = "paper", "lobula"
 
 HALF_RANGES_GREY = (10.0, 20.0, 30.0, 45.0, 60.0)
 """Of the wall's stripes about their mean."""
@@ -51,15 +51,13 @@ def settings() -> Iterator[tuple[str, str, dict[str, Any]]]:
 
 
 def variants() -> list[Variant]:
-    """Return the paper's three models in every arena."""
-    found = []
-    for lever, value, changes in settings():
-        world = _changed(World(), changes)
-        for neurons, label in LABELS.items():
-            found.append(
-                Variant(base=label, series=lever, value=value, params=preset(BASE, neurons=neurons), world=world)
-            )
-    return found
+    """Return the paper's three models and our own in every arena."""
+    models = {label: preset(BASE, neurons=neurons) for neurons, label in LABELS.items()} | {f"ours, {OWN}": preset(OWN)}
+    return [
+        Variant(base=label, series=lever, value=value, params=params, world=_changed(World(), changes))
+        for lever, value, changes in settings()
+        for label, params in models.items()
+    ]
 
 
 def _changed(world: World, changes: Mapping[str, Mapping[str, Any]]) -> World:
@@ -90,7 +88,8 @@ def draw(robots: int, plan: ScanPlan, results: Results) -> Figure:
         for name, value, ends in (("SR1", score.sr1, score.sr1_interval), ("SR2", score.sr2, score.sr2_interval)):
             line = panels.setdefault((name, variant.series), {}).setdefault(variant.base, {})
             line[variant.value] = Rate(100 * value, 100 * ends[0], 100 * ends[1])
-    title = f"{robots} robots, preset {BASE}, {len(plan.seeds)} calibration seeds of {plan.minutes:g} simulated minutes"
+    runs = f"{len(plan.seeds)} calibration seeds of {plan.minutes:g} simulated minutes"
+    title = f"{robots} robots, presets {BASE} and {OWN}, {runs}"
     return plot_sensitivity({key: panels[key] for key in sorted(panels, key=lambda key: key[0])}, title=title)
 
 

@@ -7,7 +7,7 @@ drawings as png and svg, runs.ndjson with a line for each time it was started; t
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -17,12 +17,13 @@ from ...params import settings_hash
 from ...report.landing import whole_file
 from ...report.plots import save_figure
 from . import table_plots as plots
+from .beyond_claims import BEYOND
 from .code_hash import code_hash
 from .job_rows import all_event_lines, job_lines
 from .jobs import Done
 from .pool import run_jobs
 from .run_log import note
-from .table_claims import CLAIMS, Models
+from .table_claims import CLAIMS, Models, TableClaim
 from .table_jobs import Groups, TablePlan, control_jobs, grouped, model_jobs
 from .table_page import page
 
@@ -113,24 +114,30 @@ def document(plan: TablePlan, groups: Groups, quick: bool) -> dict[str, Any]:
         "command": COMMAND,
         "quick": quick,
         **_settings(plan),
-        "claims": [
-            {
-                "number": claim.number,
-                "paper": claim.paper,
-                "rule": claim.rule,
-                "verdicts": {preset: claim.verdict(Models(groups, preset)) for preset in plan.presets},
-            }
-            for claim in CLAIMS
-        ],
+        "claims": _judged(CLAIMS, {preset: Models(groups, preset) for preset in plan.presets}),
+        "beyond": _judged(BEYOND, {own: Models(groups, next(iter(plan.presets)), own) for own in plan.own}),
         "scores": [
             {"model": model, "robots": robots, **group.score.as_dict()} for (model, robots), group in groups.items()
         ],
     }
 
 
+def _judged(claims: Sequence[TableClaim], models: Mapping[str, Models]) -> list[dict[str, Any]]:
+    return [
+        {
+            "number": claim.number,
+            "paper": claim.paper,
+            "rule": claim.rule,
+            "verdicts": {name: claim.verdict(of) for name, of in models.items()},
+        }
+        for claim in claims
+    ]
+
+
 def _settings(plan: TablePlan) -> dict[str, Any]:
     return {
         "presets": {name: settings_hash(params) for name, params in plan.presets.items()},
+        "own": {name: settings_hash(params) for name, params in plan.own.items()},
         "world": settings_hash(plan.world),
         "robots": list(plan.densities),
         "seeds": list(plan.seeds),

@@ -24,9 +24,13 @@ Groups = Mapping[tuple[str, int], Group]
 
 @dataclass(frozen=True, kw_only=True)
 class TablePlan:
-    """What is run: base presets by name, seeds, simulated minutes of each run, and the arena."""
+    """What is run: base presets by name, seeds, simulated minutes of each run, the arena, and our own models by name.
+
+    Of a base preset the paper's three models are run, of our own only what they are.
+    """
 
     presets: Mapping[str, NetworkParams]
+    own: Mapping[str, NetworkParams] = field(default_factory=dict)
     seeds: Sequence[int]
     minutes: float = 60.0
     densities: Sequence[int] = DENSITIES
@@ -35,7 +39,7 @@ class TablePlan:
     @property
     def model_count(self) -> int:
         """Models and controls."""
-        return len(self.presets) * len(LABELS) + len(CONTROLS)
+        return len(self.presets) * len(LABELS) + len(self.own) + len(CONTROLS)
 
     @property
     def job_count(self) -> int:
@@ -52,9 +56,12 @@ def model_jobs(plan: TablePlan) -> Iterator[Job]:
     """Yield the jobs of every model, density and seed."""
     for preset, params in plan.presets.items():
         for neurons in LABELS:
-            own = with_settings(params, {"decision": {"neurons": neurons}}, "chosen by the table")
+            selected = with_settings(params, {"decision": {"neurons": neurons}}, "chosen by the table")
             for robots, seed in _cells(plan):
-                yield _job(plan, model_name(preset, neurons), own, robots, seed, plan.minutes)
+                yield _job(plan, model_name(preset, neurons), selected, robots, seed, plan.minutes)
+    for name, params in plan.own.items():
+        for robots, seed in _cells(plan):
+            yield _job(plan, name, params, robots, seed, plan.minutes)
 
 
 def control_jobs(plan: TablePlan, results: Iterable[Done]) -> Iterator[Job]:

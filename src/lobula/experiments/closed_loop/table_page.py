@@ -7,10 +7,11 @@ from typing import Any
 
 from ...arena.scoring import Score
 from ...params import settings_hash
+from .beyond_claims import RULE as BEYOND_RULE
 from .paper_table import PAPER
 from .table_claims import RULE
 from .table_jobs import CONTROL_SHARE, Groups, TablePlan
-from .table_plots import Model, controls, models
+from .table_plots import Model, controls, models, own_models
 from .tables import Group, contrast, interval_text, sr1, sr2
 
 Document = Mapping[str, Any]
@@ -52,7 +53,14 @@ def page(plan: TablePlan, groups: Groups, found: Document, pictures: Mapping[str
     yield ""
     yield RULE
     yield ""
-    yield from _claims(found)
+    yield from _claims(found["claims"], [f"preset `{name}`" for name in plan.presets])
+    if plan.own:
+        yield ""
+        yield "## Beyond the paper"
+        yield ""
+        yield BEYOND_RULE
+        yield ""
+        yield from _claims(found["beyond"], [f"preset `{name}`" for name in plan.own])
 
 
 def _warning(plan: TablePlan, quick: bool) -> Iterator[str]:
@@ -163,10 +171,12 @@ def _differences(plan: TablePlan, groups: Groups) -> Iterator[str]:
     yield "| robots | the first less the second | SR1, points | SR2, points |"
     yield "|--:|---|---|---|"
     for preset in plan.presets:
-        own = list(models(plan, preset))
+        three = list(models(plan, preset))
         words = f", {preset}" if len(plan.presets) > 1 else ""
         for robots in plan.densities:
-            for first, second in ((own[2], own[0]), (own[2], own[1]), (own[1], own[0])):
+            pairs = [(three[2], three[0]), (three[2], three[1]), (three[1], three[0])]
+            pairs += [(own, other) for own in own_models(plan) for other in three]
+            for first, second in pairs:
                 pair = [groups[first.key, robots], groups[second.key, robots]]
                 cells = [_difference(pair, rate) for rate in (sr1, sr2)]
                 yield f"| {robots} | {first.label} less {second.label}{words} | {cells[0]} | {cells[1]} |"
@@ -176,18 +186,17 @@ def _difference(pair: Sequence[Group], rate: Any) -> str:
     return contrast("", pair, lambda a, b: rate(a) - rate(b), "").numbers.replace("  ", " ")
 
 
-def _claims(found: Document) -> Iterator[str]:
-    presets = list(found["presets"])
-    yield f"| claim | the paper says | {' | '.join(f'preset `{name}`' for name in presets)} |"
-    yield f"|---|---|{'---|' * len(presets)}"
-    for claim in found["claims"]:
+def _claims(claims: Sequence[Document], columns: Sequence[str]) -> Iterator[str]:
+    yield f"| claim | what is claimed | {' | '.join(columns)} |"
+    yield f"|---|---|{'---|' * len(columns)}"
+    for claim in claims:
         cells = [f"**{of['status']}**: {of['ours']}" for of in claim["verdicts"].values()]
         yield f"| {claim['number']} | {claim['paper']} | {' | '.join(cells)} |"
-    for claim in found["claims"]:
+    for claim in claims:
         yield ""
         yield f"### {claim['number']}"
         yield ""
-        yield f"The paper: {claim['paper']} Right if {claim['rule']}."
+        yield f"{claim['paper']} Right if {claim['rule']}."
         for preset, of in claim["verdicts"].items():
             yield ""
             yield f"`{preset}`: **{of['status']}**, {of['ours']}. {of['reason']}".rstrip()

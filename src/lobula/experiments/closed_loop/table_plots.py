@@ -25,7 +25,7 @@ TIMES = 60
 
 
 class Model(NamedTuple):
-    """A model of the table: its key in the groups, its words, and who decides (None: a control)."""
+    """A model of the table: its key in the groups, its words, and which of the paper's it is (None: none of them)."""
 
     key: str
     label: str
@@ -33,11 +33,19 @@ class Model(NamedTuple):
 
 
 def models(plan: TablePlan, preset: str | None = None) -> Iterator[Model]:
-    """Yield the models of ``preset``, or of all presets, told apart where there are several."""
+    """Yield the paper's models of ``preset``; or of all presets, told apart where there are several, then our own."""
     for name in plan.presets if preset is None else (preset,):
         for neurons, label in LABELS.items():
             several = preset is None and len(plan.presets) > 1
             yield Model(model_name(name, neurons), f"{label}, {name}" if several else label, neurons)
+    if preset is None:
+        yield from own_models(plan)
+
+
+def own_models(plan: TablePlan) -> Iterator[Model]:
+    """Yield our own models."""
+    for name in plan.own:
+        yield Model(name, f"ours, preset {name}", None)
 
 
 def controls() -> Iterator[Model]:

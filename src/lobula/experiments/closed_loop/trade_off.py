@@ -29,31 +29,58 @@ NAME = "trade-off"
 WHO = {"lgmd2": "LGMD-2 alone", "lgmds": "the LGMD pair"}
 C_SIG_TIMES = (1.0, 1.5, 2.0, 3.0)
 K_HS_TIMES = (0.3, 1.0, 3.0, 10.0)
+PATCHES_TIMES: Mapping[str, Sequence[float]] = {
+    "coarse_gain": (0.0, 0.5, 1.0, 2.0),
+    "coarse_on_weight": (0.0, 0.5, 1.0, 2.0),
+}
+"""Of our own preset: how loud the coarse patches are, and what brightening takes off."""
+LIMITS_GREY = (25.0, 35.0, 50.0, 70.0, 100.0)
+"""Of its saturation."""
 DECISIONS: Mapping[str, Sequence[float]] = {
     "lptc_weight": (0.0, 0.5, 1.0, 2.0, 4.0),
     "window_ms": (100.0, 200.0, 333.0, 500.0),
     "collision_spikes": (2, 4, 6, 8),
 }
 """Settings of the decision and the values tried; those of a preset are among them."""
+OWN = "lobula"
+BASES_AND_OWN = (*BASES, OWN)
 
 
 def variants() -> list[Variant]:
-    """Return all levers at all their values, on both base presets."""
-    return [variant for base in BASES for variant in _of_base(base, preset(base))]
+    """Return all levers at all their values, on both base presets and on our own."""
+    of_bases = [variant for base in BASES for variant in _of_base(base, preset(base))]
+    return [*of_bases, *_of_own(preset(OWN))]
 
 
 def _of_base(base: str, params: NetworkParams) -> Iterator[Variant]:
     for neurons, words in WHO.items():
         yield _changed(base, params, words, "", {"decision": {"neurons": neurons}})
-    for times in C_SIG_TIMES:
-        sigmoid = {n: {"sigmoid_grey": times * getattr(params, n).sigmoid_grey} for n in ("lgmd1", "lgmd2")}
-        yield _changed(base, params, "C_sig", f"x{times:g}", sigmoid)
+    yield from _sigmoids(base, params)
     for times in K_HS_TIMES:
         scale = {"lptc": {"sigmoid_grey2": times * params.lptc.sigmoid_grey2}}
         yield _changed(base, params, "K_hs", f"x{times:g}", scale)
     for name, values in DECISIONS.items():
         for value in values:
             yield _changed(base, params, name, f"{value:g}", {"decision": {name: value}})
+
+
+def _of_own(params: NetworkParams) -> Iterator[Variant]:
+    yield from _sigmoids(OWN, params)
+    for name, factors in PATCHES_TIMES.items():
+        for times in factors:
+            changed = {"lgmd2": {name: times * getattr(params.lgmd2, name)}}
+            yield _changed(OWN, params, name, f"x{times:g}", changed)
+    for limit in LIMITS_GREY:
+        yield _changed(OWN, params, "saturation", f"{limit:g} grey", {"saturation": {"limit_grey": limit}})
+    yield _changed(OWN, params, "saturation", "none", {"saturation": {"enabled": False}})
+    for value in DECISIONS["collision_spikes"]:
+        yield _changed(OWN, params, "collision_spikes", f"{value:g}", {"decision": {"collision_spikes": value}})
+
+
+def _sigmoids(base: str, params: NetworkParams) -> Iterator[Variant]:
+    for times in C_SIG_TIMES:
+        sigmoid = {n: {"sigmoid_grey": times * getattr(params, n).sigmoid_grey} for n in ("lgmd1", "lgmd2")}
+        yield _changed(base, params, "C_sig", f"x{times:g}", sigmoid)
 
 
 def _changed(base: str, params: NetworkParams, series: str, value: str, settings: Mapping[str, Any]) -> Variant:
@@ -64,7 +91,7 @@ def make(plan: ScanPlan, folder: Path, workers: int, advance: Callable[[], None]
     """Run the scan and write trade-off.csv, trade-off.md and a drawing for each base preset."""
     chosen = variants()
     results = run_scan(NAME, chosen, plan, folder, workers=workers, advance=advance)
-    for base in BASES:
+    for base in BASES_AND_OWN:
         drawing = draw(base, plan, results)
         for suffix in (".svg", ".png"):
             save_figure(drawing, folder / f"{NAME}-{base}{suffix}")
@@ -91,10 +118,11 @@ def page(plan: ScanPlan, chosen: Sequence[Variant], results: Results) -> Iterato
     yield ""
     yield (
         "AT and CR are per robot-hour. A variant is on the *front* if no other one of the same table has fewer of one "
-        "and not more of the other. All else is as the preset has it; `lptc_weight` 0 is the LGMD pair. Intervals "
+        "and not more of the other. All else is as the preset has it; `lptc_weight` 0 is the LGMD pair, `coarse_gain` "
+        "times 0 our own preset without its patches. Intervals "
         "of the rates are Wilson's of 95 %, then, from five seeds on, those of a bootstrap over the seeds."
     )
-    for base in BASES:
+    for base in BASES_AND_OWN:
         yield ""
         yield f"## Preset `{base}`"
         yield ""

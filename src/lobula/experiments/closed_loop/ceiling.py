@@ -1,0 +1,319 @@
+"""What success rates are reachable: robots driven by a controller that knows the true places and velocities.
+
+    python -m lobula.experiments.closed_loop.ceiling --out DIR
+
+What it misses of 100 % lies in the arena, the turn and the counting, not in a detector.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from itertools import chain
+from pathlib import Path
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ...arena.controller import Bools
+from ...arena.geometry import Floats, closest_approach, pupils, wall_ahead_cm, wrap_rad
+from ...arena.running import MOST_MINUTES
+from ...arena.scorer import Scorer
+from ...arena.scoring import Score, Tally, total
+from ...arena.simulation import Simulation
+from ...arena.world import RoomParams, World
+from ...errors import LobulaError, ParameterError
+from ...intervals import Interval
+from ...report.landing import writing
+from ...runtime.interrupts import Interrupted, raised_at_once
+from .event_rows import csv_lines
+from .paper_table import DENSITIES
+from .run_log import note
+from .scan import ScanPlan, write
+from .scan_command import FIRST_SEED, MINUTES, SEEDS
+from .tables import interval_text
+
+NAME = "ceiling"
+
+Sight = Literal["edge", "centre", "around"]
+
+SIGHTS: dict[Sight, str] = {
+    "edge": "any part of it in the field of view",
+    "centre": "its centre in the field of view",
+    "around": "anywhere, as if it saw all around",
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rule:
+    """When a robot turns: for which robots and how early, and how near to the wall.
+
+    horizon_s : a robot that is to come within the scoring margin later than this does not matter yet
+    sight : of which robots it knows
+    wall_cm : the way left to drive until it touches the wall
+    """
+
+    horizon_s: float
+    sight: Sight = "edge"
+    wall_cm: float = 5.0
+
+
+RULES = (
+    Rule(horizon_s=0.4),
+    Rule(horizon_s=0.7),
+    Rule(horizon_s=1.0),
+    Rule(horizon_s=0.7, sight="centre"),
+    Rule(horizon_s=0.7, sight="around"),
+)
+
+
+def robot_comes(poses: Floats, velocities_cm_s: Floats, world: World, rule: Rule) -> Bools:
+    """Return which robots (R,) must turn because of another one.
+
+    That one is in view, comes nearer, and will be within the scoring margin of touching in ``rule.horizon_s`` if both
+    keep their velocities. ``poses`` (R, 3), ``velocities_cm_s`` (R, 2).
+    """
+    places = poses[:, :2]
+    offsets, closing = places - places[:, None], velocities_cm_s - velocities_cm_s[:, None]  # [i, j]: j as i has it
+    distances, _ = closest_approach(offsets, closing, rule.horizon_s)
+    nearer = (offsets * closing).sum(axis=-1) < 0  # of nobody to itself
+    meets = distances < 2 * world.body.radius_cm + world.scoring.margin_cm
+    return np.asarray((nearer & meets & in_view(poses, world, rule.sight)).any(axis=1))
+
+
+def in_view(poses: Floats, world: World, sight: Sight) -> Bools:
+    """Return (R, R), [i, j]: whether robot i has robot j in view; what stands between hides nothing."""
+    if sight == "around":
+        return np.ones((len(poses), len(poses)), np.bool_)
+    way = poses[:, :2] - pupils(poses, world.camera.ahead_cm)[:, None]
+    bearings = wrap_rad(np.arctan2(way[..., 1], way[..., 0]) - poses[:, 2, None])
+    limit = np.full(bearings.shape, np.radians(world.camera.fov_deg) / 2)
+    if sight == "edge":
+        limit += np.arcsin(np.minimum(world.body.radius_cm / np.hypot(way[..., 0], way[..., 1]), 1.0))
+    return np.asarray(np.abs(bearings) < limit)
+
+
+def wall_comes(poses: Floats, world: World, wall_cm: float) -> Bools:
+    """Return which robots (R,) would touch the wall if they drove ``wall_cm`` straight on; ``poses`` (R, 3)."""
+    radius = world.body.radius_cm
+    reach = _reach_of_centres(world.room, radius)
+    left = [wall_ahead_cm(reach, (x - radius, y - radius), heading) for x, y, heading in poses.tolist()]
+    return np.array(left) < wall_cm
+
+
+@lru_cache(maxsize=1)
+def _reach_of_centres(room: RoomParams, radius_cm: float) -> RoomParams:
+    """Return what is left of ``room`` to the middle of a body; its lower left corner is ``radius_cm`` in from that."""
+    return replace(
+        room,
+        width_cm=room.width_cm - 2 * radius_cm,
+        depth_cm=room.depth_cm - 2 * radius_cm,
+        radius_cm=room.radius_cm - radius_cm,
+    )
+
+
+class Informed:
+    """A controller that decides by ``rule`` and by the true state of ``simulation``, to be set before the first tick.
+
+    It does not look at pictures, nor can it be asked what it would have said to others.
+
+    Attributes
+    ----------
+    for_robot : (R,) who had to turn because of a robot, at the last step
+    """
+
+    simulation: Simulation
+
+    def __init__(self, rule: Rule) -> None:
+        self.rule = rule
+
+    def start(self, robots: int, rng: np.random.Generator) -> None:
+        """Begin with nobody having to turn."""
+        self.for_robot = np.zeros(robots, np.bool_)
+
+    def step(self, images: NDArray[np.uint8], time_s: float, turning: Bools) -> Bools:
+        """Return who has to turn, because of a robot or the wall."""
+        poses, world = self.simulation.pose, self.simulation.world
+        speeds = np.where(turning, 0.0, self.simulation.motion.speeds_cm_s)
+        velocities = speeds[:, None] * np.column_stack([np.cos(poses[:, 2]), np.sin(poses[:, 2])])
+        self.for_robot = robot_comes(poses, velocities, world, self.rule)
+        return self.for_robot | wall_comes(poses, world, self.rule.wall_cm)
+
+
+class ShutEye:
+    """Gives pictures of one black pixel: nobody looks at them."""
+
+    def views(self, cameras: ArrayLike, bodies: ArrayLike, **about: Any) -> NDArray[np.uint8]:
+        """Return one black pixel for each of ``cameras`` (N, 3)."""
+        return np.zeros((len(np.asarray(cameras)), 1, 1), np.uint8)
+
+
+class Outcome(NamedTuple):
+    """What came of a run: the score by place alone, and the tally by what the controller turned for."""
+
+    score: Score
+    reasons: Tally
+
+
+def drive(world: World, rule: Rule, seed: int, minutes: float, poses: Floats | None = None) -> Outcome:
+    """Let robots drive by ``rule`` for simulated ``minutes``, from ``poses`` (R, 3) if given, and count.
+
+    By its reasons, a turn because of a robot is AA, since that robot approaches as the scoring has it; every other
+    turn is AP.
+
+    Raises
+    ------
+    ParameterError : minutes out of range; a world with no room for its robots
+    """
+    if not 0 < minutes <= MOST_MINUTES:
+        raise ParameterError(f"minutes = {minutes!r}: must be above 0 and at most {MOST_MINUTES:g}")
+    controller = Informed(rule)
+    simulation = Simulation(world, controller, seed, poses=poses, eye=ShutEye())
+    controller.simulation = simulation
+    scorer = Scorer(simulation)
+    for_robots = turns = 0
+    for _ in range(max(1, round(minutes * 60 * world.camera.rate_hz))):
+        tick = simulation.tick()
+        scorer.tick(tick)
+        turns += int(tick.avoiding.sum())
+        for_robots += int((tick.avoiding & controller.for_robot).sum())
+    score = scorer.score()
+    return Outcome(score, Tally(cr=score.cr, cp=score.cp, aa=for_robots, ap=turns - for_robots))
+
+
+Outcomes = Mapping[tuple[Rule, int], Sequence[Outcome]]
+"""By rule and robots, one for each seed."""
+
+
+def make(plan: ScanPlan, folder: Path) -> None:
+    """Run every rule on every seed and write ceiling.csv, one row a run, and ceiling.md.
+
+    Raises
+    ------
+    ParameterError : as ``drive``
+    OutputError : a file cannot be written
+    """
+    outcomes: dict[tuple[Rule, int], list[Outcome]] = {}
+    for robots in plan.densities:
+        world = replace(World(), robots=replace(World().robots, count=robots))
+        for rule in RULES:
+            outcomes[rule, robots] = [drive(world, rule, seed, plan.minutes) for seed in plan.seeds]
+    note(folder, NAME, {"variants": len(RULES), "seeds": list(plan.seeds), "minutes": plan.minutes})
+    rows = list(_rows(plan, outcomes))
+    write(folder / f"{NAME}.csv", csv_lines(rows[0], rows))
+    write(folder / f"{NAME}.md", (f"{line}\n" for line in page(plan, outcomes)))
+
+
+def page(plan: ScanPlan, outcomes: Outcomes) -> Iterator[str]:
+    """Yield the lines of ``ceiling.md``."""
+    world = World()
+    near, margin = world.scoring.near_cm, world.scoring.margin_cm
+    seeds = f"{plan.seeds[0]} to {plan.seeds[-1]}" if len(plan.seeds) > 1 else f"{plan.seeds[0]}"
+    yield "# What a controller that knows everything reaches"
+    yield ""
+    yield (
+        f"Made by `python -m lobula.experiments.closed_loop.{NAME}`: {len(RULES)} variants, calibration seeds {seeds}, "
+        f"{plan.minutes:g} simulated minutes of each. Nothing here was run on the seeds of Table I."
+    )
+    yield ""
+    yield (
+        "The controller knows where every robot truly is and how it moves. A robot turns when it would touch the wall "
+        f"within {RULES[0].wall_cm:g} cm straight on, or when a robot in view comes nearer and will be, velocities "
+        f"held, within {margin:g} cm of touching in *T* seconds. The turn is that of every other controller. Intervals "
+        "are Wilson's of 95 %."
+    )
+    for robots in plan.densities:
+        yield ""
+        yield f"## {robots} robots"
+        yield ""
+        yield (
+            "| T | which robots it knows of | CR | of them unseen | CP | AA | AT | AP | spurious "
+            "| SR1 by place | SR2 by place | SR1 by reasons | SR2 by reasons |"
+        )
+        yield "|--:|---|--:|--:|--:|--:|--:|--:|--:|---|---|---|---|"
+        for (rule, count), runs in outcomes.items():
+            if count == robots:
+                score, reasons = total(run.score for run in runs), sum((run.reasons for run in runs), Tally())
+                cells = [f"{rule.horizon_s:.1f} s", SIGHTS[rule.sight], score.cr, score.unseen_cr, score.cp]
+                cells += [score.aa, score.at, score.ap, score.spurious, *_rates(score), *_rates(reasons)]
+                yield f"| {' | '.join(map(str, cells))} |"
+    yield ""
+    yield "What limits the comparison with a detector:"
+    yield ""
+    yield (
+        "- It cannot be asked again with something left out, as the networks are. So its causes, and with them all "
+        f"columns from AA to *SR2 by place*, are by place alone: the nearest robot in view within {near:g} cm, else "
+        "the wall. Where a robot is in view as near as that, a turn from the wall counts as AA or AT, and a turn from one "
+        "robot as AT if another is nearer. Compare these with a network's rates by place alone."
+    )
+    yield (
+        "- *By reasons* counts what it turned for: an approaching robot as AA (also where the wall was near), the wall "
+        "as AP. AT is 0 by construction. This is the nearer of the two to causes found by leaving out, but it is not "
+        "the same rule."
+    )
+    yield (
+        "- It is one family of rules, not a bound: nobody has shown that no other one does better. Its view is not "
+        "hidden by bodies in between, and it has no delay and no noise. But it does not know who will turn next, nor "
+        "does it choose the side it turns to."
+    )
+    yield (
+        "- *Unseen* are contacts that no robot in them could have seen coming: each was turning, or had not had the "
+        "other one in its picture in the last second. *Spurious* are turns because of a robot that the picture does "
+        f"not show, or of a wall met so aslant that straight ahead it is {near:g} cm off or more."
+    )
+
+
+def _rates(tally: Tally) -> list[str]:
+    return [_rate(tally.sr1, tally.sr1_interval), _rate(tally.sr2, tally.sr2_interval)]
+
+
+def _rate(value: float, ends: Interval) -> str:
+    if value != value:
+        return "nothing to count"
+    return f"{100 * value:.1f} % {interval_text(100 * ends[0], 100 * ends[1])}"
+
+
+def _rows(plan: ScanPlan, outcomes: Outcomes) -> Iterator[dict[str, Any]]:
+    for (rule, robots), runs in outcomes.items():
+        for seed, run in zip(plan.seeds, runs, strict=True):
+            about = {"horizon_s": rule.horizon_s, "sight": rule.sight, "wall_cm": rule.wall_cm}
+            reasons = {f"reasons_{name}": value for name, value in run.reasons.as_dict().items()}
+            counted = chain(run.score.as_dict().items(), reasons.items())
+            rounded = {name: round(value, 6) if isinstance(value, float) else value for name, value in counted}
+            yield {**about, "robots": robots, "seed": seed, "minutes": plan.minutes, **rounded}
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run it from a command line and return the exit code: 0, 2 for a wrong request, 130 or 143."""
+    p = argparse.ArgumentParser(description="What a controller reaches that knows the true places and velocities.")
+    p.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for table and page")
+    p.add_argument("--seeds", type=int, default=SEEDS, metavar="N", help=f"runs of each variant; {SEEDS}")
+    p.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="N", help=f"{FIRST_SEED}, for calibration")
+    p.add_argument("--minutes", type=float, default=MINUTES, metavar="MIN", help=f"simulated, of each run; {MINUTES:g}")
+    p.add_argument("--robots", type=int, nargs="+", default=DENSITIES, metavar="N", help="numbers of robots; 4 7")
+    given = p.parse_args(arguments)
+    try:
+        if given.seeds < 1:
+            raise ParameterError(f"--seeds {given.seeds}: must be 1 or more")
+        seeds = range(given.first_seed, given.first_seed + given.seeds)
+        plan = ScanPlan(seeds=seeds, minutes=given.minutes, densities=given.robots)
+        with writing(given.out):
+            given.out.mkdir(parents=True, exist_ok=True)
+        with raised_at_once():
+            make(plan, given.out)
+    except LobulaError as error:
+        print(f"lobula: {error}", file=sys.stderr)
+        return 2
+    except Interrupted as stop:
+        print("lobula: interrupted before the page was written: must be run again from the start", file=sys.stderr)
+        return stop.exit_code
+    print(given.out)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
