@@ -28,9 +28,9 @@ from ...arena.simulation import Simulation
 from ...arena.world import RoomParams, World
 from ...errors import LobulaError, ParameterError
 from ...intervals import Interval
+from ...report.csv_lines import csv_lines
 from ...report.landing import writing
 from ...runtime.interrupts import Interrupted, raised_at_once
-from .event_rows import csv_lines
 from .paper_table import DENSITIES
 from .run_log import note
 from .scan import ScanPlan, write
@@ -247,8 +247,8 @@ def page(plan: ScanPlan, outcomes: Outcomes) -> Iterator[str]:
     yield (
         "- It cannot be asked again with something left out, as the networks are. So its causes, and with them all "
         f"columns from AA to *SR2 by place*, are by place alone: the nearest robot in view within {near:g} cm, else "
-        "the wall. Where a robot is in view as near as that, a turn from the wall counts as AA or AT, and a turn from one "
-        "robot as AT if another is nearer. Compare these with a network's rates by place alone."
+        "the wall. Where a robot is in view as near as that, a turn from the wall counts as AA or AT, and a turn from "
+        "one robot as AT if another is nearer. Compare these with a network's rates by place alone."
     )
     yield (
         "- *By reasons* counts what it turned for: an approaching robot as AA (also where the wall was near), the wall "
