@@ -19,6 +19,14 @@ class HookKind(NamedTuple):
 
 KINDS: dict[str, HookKind] = {
     "ndjson": HookKind("ndjson:FILE", "records as lines of a file", "ndjson_file"),
+    "unix": HookKind("unix:PATH", "records as lines to a Unix socket", "socket_lines"),
+    "tcp": HookKind("tcp:HOST:PORT", "records as lines over TCP", "socket_lines"),
+    "exec": HookKind("exec:COMMAND", "runs a program for each event, the record on its standard input", "program"),
+    "http": HookKind("http://ADDRESS", "posts each event as JSON", "webhook"),
+    "https": HookKind("https://ADDRESS", "posts each event as JSON", "webhook"),
+    "mqtt": HookKind("mqtt://HOST/TOPIC", "publishes the records to a broker", "mqtt"),
+    "mqtts": HookKind("mqtts://HOST/TOPIC", "publishes the records to a broker, encrypted", "mqtt"),
+    "mavlink": HookKind("mavlink:LINK", "COLLISION and potentials for an autopilot or ground station", "mavlink"),
 }
 """Scheme -> kind. A module is imported only when a target asks for it."""
 
