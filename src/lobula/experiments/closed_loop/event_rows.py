@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import csv
-import io
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from numpy.typing import NDArray
 
 from ...arena.events import EVENT_DTYPE, name_of
+from ...report.csv_lines import csv_lines
 
 COLUMNS: tuple[str, ...] = tuple(EVENT_DTYPE.names or ())
 """Of an event, in their order."""
@@ -30,19 +29,6 @@ def event_rows(events: NDArray[Any], about: Mapping[str, Any] | None = None) -> 
 def event_lines(events: NDArray[Any]) -> Iterator[str]:
     """Yield the lines of a CSV file with a heading and one event each."""
     yield from csv_lines(COLUMNS, event_rows(events))
-
-
-def csv_lines(columns: Iterable[str], rows: Iterable[Mapping[str, Any]]) -> Iterator[str]:
-    """Yield the heading and ``rows`` as lines of a CSV file; a row may lack a column."""
-    text = io.StringIO()
-    writer = csv.DictWriter(text, list(columns), restval="", lineterminator="\n")
-    writer.writeheader()
-    for row in rows:
-        writer.writerow(row)
-        yield text.getvalue()
-        text.seek(0)
-        text.truncate()
-    yield text.getvalue()
 
 
 def _cell(name: str, value: Any) -> Any:

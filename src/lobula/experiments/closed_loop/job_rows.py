@@ -7,7 +7,8 @@ from itertools import chain
 from typing import Any
 
 from ...params import settings_hash
-from .event_rows import COLUMNS, csv_lines, event_rows
+from ...report.csv_lines import csv_lines
+from .event_rows import COLUMNS, event_rows
 from .jobs import Done
 
 ABOUT = ("model", "robots", "seed")

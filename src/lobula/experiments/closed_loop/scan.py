@@ -11,8 +11,8 @@ from ...arena.world import World
 from ...errors import ParameterError
 from ...model.network import NetworkParams
 from ...params import settings_hash
+from ...report.csv_lines import csv_lines
 from ...report.landing import whole_file
-from .event_rows import csv_lines
 from .job_rows import job_lines
 from .jobs import Done, Job
 from .paper_table import DENSITIES
