@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import glob
+import os
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
-from ..errors import ParameterError
+from ..errors import OutputError, ParameterError
 
 Inputs = Mapping[str, str | Path | None]
 """What is read, by what it is called: a path, a pattern, or None; cameras, pipes and addresses name no file."""
@@ -63,6 +64,23 @@ def check_folder(option: str, folder: Path) -> None:
     there = next((path for path in (folder, *folder.parents) if path.exists()), folder)
     if there.exists() and not there.is_dir():
         raise ParameterError(f"{option} {folder}: {there} is a file, must be a folder")
+
+
+def make_folder(option: str, folder: Path) -> None:
+    """Make the folder and see, before the work, that files can be written into it.
+
+    Raises
+    ------
+    ParameterError : it, or what it lies in, is a file
+    OutputError : it cannot be made, or not be written into
+    """
+    from ..report.landing import writing
+
+    check_folder(option, folder)
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    if not os.access(folder, os.W_OK | os.X_OK):
+        raise OutputError(f"cannot write {folder}: no permission")
 
 
 def _files_of(source: str | Path | None) -> Iterable[Path]:

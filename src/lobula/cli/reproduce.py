@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from ..errors import OutputError, ParameterError
+from ..errors import ParameterError
 from . import options as o
 from .call import new_app
 
@@ -41,6 +40,7 @@ def reproduce(
     """Run an experiment of the paper: its figure, every trial as CSV, and a page that says which claims hold."""
     from ..experiments.paper.reproduction import FIGURES, gather, reproduce
     from ..report.axes import new_figure
+    from .destinations import make_folder
     from .print_json import print_json
     from .progress import say, screen
     from .reproduce_table import TABLE, make_table, table_plan
@@ -53,7 +53,7 @@ def reproduce(
     plan, chosen = _plan(seeds, quick, preset), [FIGURES[name] for name in FIGURES if what in (name, ALL)]
     table = table_plan(seeds, quick, preset, minutes, first_seed) if what in (TABLE, ALL) else None
     new_figure(1, 1)  # says now, not after minutes, that matplotlib is missing
-    _make_folder(out)
+    make_folder("--out", out)
     found = []
     if chosen:
         with screen(sum(1 for figure in chosen for _ in figure.shots(plan)), "films") as here:
@@ -82,18 +82,6 @@ def _plan(count: int | None, quick: bool, preset: str | None) -> Plan:
         seeds=seeds(count if count is not None else QUICK_SEEDS if quick else SEEDS),
         side_seeds=QUICK_SIDE_SEEDS if quick else SIDE_SEEDS,
     )
-
-
-def _make_folder(folder: Path) -> None:
-    """Make the folder and see, before the work, that files can be written into it."""
-    from ..report.landing import writing
-    from .destinations import check_folder
-
-    check_folder("--out", folder)
-    with writing(folder):
-        folder.mkdir(parents=True, exist_ok=True)
-    if not os.access(folder, os.W_OK | os.X_OK):
-        raise OutputError(f"cannot write {folder}: no permission")
 
 
 def _text(found: dict[str, Any]) -> str:

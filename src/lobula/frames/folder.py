@@ -36,15 +36,31 @@ def open_folder(folder: Path, rate_hz: float | None) -> FolderReader:
     ------
     FrameSourceError : no images, or a times.csv that does not fit them
     """
-    times_file = folder / TIMES_FILE
-    if rate_hz is None and times_file.is_file():
-        files, times_s = _read_times(times_file)
+    files, times_s = folder_images(folder, timed=rate_hz is None)
+    if times_s is not None:
         return FolderReader(str(folder), files, times_s=times_s)
-    found = (p for p in folder.iterdir() if p.suffix.lower() in IMAGE_ENDINGS and not p.name.startswith("."))
-    files = sorted(found, key=natural_order)
+    return FolderReader(str(folder), files, rate_hz=rate_hz or DEFAULT_RATE_HZ)
+
+
+def folder_images(folder: Path, timed: bool = True) -> tuple[list[Path], list[float] | None]:
+    """Return the images of a folder in their order, and their stamps if it has a times.csv and ``timed`` asks for it.
+
+    Raises
+    ------
+    FrameSourceError : no images, or a times.csv that does not fit them
+    """
+    times_file = folder / TIMES_FILE
+    if timed and times_file.is_file():
+        return _read_times(times_file)
+    files = sorted((path for path in folder.iterdir() if is_image(path)), key=natural_order)
     if not files:
         raise FrameSourceError(f"{folder}: no images in it: must hold {', '.join(IMAGE_ENDINGS)} files")
-    return FolderReader(str(folder), files, rate_hz=rate_hz or DEFAULT_RATE_HZ)
+    return files, None
+
+
+def is_image(path: Path) -> bool:
+    """Whether a file of a folder is taken for one of its pictures, by its name."""
+    return path.suffix.lower() in IMAGE_ENDINGS and not path.name.startswith(".")
 
 
 def open_pattern(pattern: str, rate_hz: float | None) -> FolderReader:

@@ -49,9 +49,7 @@ def part_of(path: Path, suffix: str | None = None) -> Path:
 
 @contextmanager
 def whole_file(path: Path, *also: type[Exception]) -> Iterator[Path]:
-    """Give a temporary name beside ``path`` to write to, and rename it to ``path`` when the block ends well.
-
-    The data is on the disk before the name is, so a power cut leaves the old file or the new one, not half of one.
+    """Give a temporary name beside ``path`` to write to, and ``land`` it as ``path`` when the block ends well.
 
     Raises
     ------
@@ -61,8 +59,21 @@ def whole_file(path: Path, *also: type[Exception]) -> Iterator[Path]:
     with writing(path, *also):
         try:
             yield temporary
-            with temporary.open("rb") as written:
-                os.fsync(written.fileno())
-            temporary.replace(path)
+            land(temporary, path)
         finally:
             temporary.unlink(missing_ok=True)
+
+
+def land(temporary: Path, path: Path) -> None:
+    """Give a finished file its name; what had that name before is replaced.
+
+    The data is on the disk before the name is, so a power cut leaves the old file or the new one, not half of one.
+
+    Raises
+    ------
+    OutputError : it cannot be done
+    """
+    with writing(path):
+        with temporary.open("rb") as written:
+            os.fsync(written.fileno())
+        temporary.replace(path)
