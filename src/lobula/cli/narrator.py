@@ -29,9 +29,11 @@ class Narrator:
         """Say nothing."""
 
     def event(self, record: Mapping[str, Any]) -> None:
-        """Say when something starts, and of a collision when it ended."""
+        """Say when something starts, and of a collision or a hook's trouble when it ended."""
         at = f"{record['time_s']:8.3f} s  frame {record['frame']:<6}"
-        if record["type"] == "state":
+        if record["type"] == "hook":
+            self._say(f"{at} hook {record['hook']}: {_hook_text(record)}")
+        elif record["type"] == "state":
             if record["phase"] == "start":
                 self._say(f"{at} {str(record['state']).replace('_', ' ')}")
         elif record["phase"] == "start":
@@ -57,3 +59,12 @@ class Narrator:
         if summary["damaged"]:
             text += f", {summary['damaged']} damaged"
         self._say(f"{text}, {summary['ms_per_frame']:.3f} ms a frame (worst {summary['ms_worst']:.1f})")
+        for hook in summary.get("hooks", ()):
+            if hook["dropped"]:
+                self._say(f"hook {hook['hook']}: {hook['sent']} sent, {hook['dropped']} lost: {hook['problem']}")
+
+
+def _hook_text(record: Mapping[str, Any]) -> str:
+    if record["phase"] == "start":
+        return str(record["problem"])
+    return f"works again, {counted(record['dropped'], 'message')} lost"

@@ -17,6 +17,7 @@ from .progress import Screen, screen
 if TYPE_CHECKING:
     from ..engine.network import Network
     from ..frames import FrameSource
+    from ..hooks import Hook
     from ..model.network import NetworkParams
     from ..runtime.sinks import Sink
     from ..runtime.yaw import YawRecord
@@ -33,6 +34,13 @@ def run(
     ] = None,
     annotate: Annotated[Path | None, typer.Option(metavar="FILE.mp4", help="video with traces and decisions")] = None,
     report: Annotated[Path | None, typer.Option(metavar="DIR", help="a folder with a report page")] = None,
+    hook: Annotated[
+        list[str] | None,
+        typer.Option(metavar="TARGET", help="where events go: tcp:HOST:PORT, mqtt://HOST/TOPIC, ...; may be repeated"),
+    ] = None,
+    hook_rate: Annotated[
+        float | None, typer.Option(metavar="HZ", help="readings a second to hooks that carry them; 0 for events alone")
+    ] = None,
     preset: o.Preset = None,
     neurons: o.Neurons = None,
     config: o.Config = None,
@@ -68,6 +76,7 @@ def run(
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
+    from .hooks import make_hooks
     from .settings import choose
 
     try:
@@ -76,7 +85,9 @@ def run(
         params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
         network = Network(params, engine=engine)
         turns = None if yaw is None else read_yaw(yaw)
+        hooks = make_hooks(hook or (), hook_rate)
         outputs = {"--trace": trace, "--annotate": annotate}
+        outputs |= {f"hook {number}": one.path for number, one in enumerate(hooks, 1)}
         if report is not None:
             check_folder("--report", report)
             outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
@@ -99,7 +110,7 @@ def run(
             raise ParameterError(str(error)) from error
         raise
     with frames, screen(frames.frame_count, Path(frames.name).name) as here:
-        return _watch(frames, params, chosen.preset, network, turns, files, json, here)
+        return _watch(frames, params, chosen.preset, network, turns, files, hooks, hook_rate, json, here)
 
 
 def _watch(
@@ -109,6 +120,8 @@ def _watch(
     network: Network,
     turns: YawRecord | None,
     files: list[Sink],
+    hooks: list[Hook],
+    hook_rate: float | None,
     json: bool,
     here: Screen,
 ) -> int:
@@ -118,8 +131,9 @@ def _watch(
     from ..runtime.outputs import Outputs
     from .narrator import Narrator
 
-    # last: its summary knows what became of the files
-    sinks: list[Sink] = [*files, NdjsonSink(sys.stdout) if json else Narrator(here.say)]
+    # last: its summary knows what became of the files and the hooks
+    reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(here.say)
+    sinks = [*files, *_with_hooks(reader, hooks, hook_rate)]
     header = run_header(frames, params, preset=preset, engine=network.engine)
     told = frames.notes
     for note in told:
@@ -132,6 +146,15 @@ def _watch(
     if outcome.message:
         here.say(f"lobula: {outcome.message}")
     return outcome.exit_code
+
+
+def _with_hooks(reader: Sink, hooks: list[Hook], readings_hz: float | None) -> list[Sink]:
+    if not hooks:
+        return [reader]
+    from ..hooks import PostOffice, Telling
+
+    office = PostOffice(hooks, readings_hz)
+    return [office, Telling(reader, office)]
 
 
 def _file_sinks(trace: Path | None, annotate: Path | None, report: Path | None) -> list[Sink]:

@@ -19,8 +19,8 @@ class HostPort(NamedTuple):
         return f"{_bracketed(self.host)}:{self.port}"
 
 
-def host_port(text: str, wanted: str) -> HostPort:
-    """Return ``robot:9000`` or ``[::1]:9000`` in its two parts.
+def host_port(text: str, target: str, wanted: str) -> HostPort:
+    """Return ``robot:9000`` or ``[::1]:9000``, which is the end of ``target``, in its two parts.
 
     Raises
     ------
@@ -28,7 +28,7 @@ def host_port(text: str, wanted: str) -> HostPort:
     """
     match = re.fullmatch(r"(\[[0-9a-fA-F:.%]+\]|[^\s:/@\[\]]+):(\d{1,5})", text)
     if match is None or not 1 <= int(match[2]) <= 65535:
-        raise ParameterError(f"hook {text!r}: must be {wanted}, port 1 to 65535")
+        raise ParameterError(f"hook {target}: must be {wanted}, port 1 to 65535")
     return HostPort(match[1].strip("[]"), int(match[2]))
 
 

@@ -47,13 +47,14 @@ def make_link(text: str) -> Link:
     if serial is not None:
         return SerialLink(serial[1], int(serial[2] or BAUD))
     kind, _, rest = text.partition(":")
+    target = f"mavlink:{text}"
     if kind in ("udpout", "udpbcast"):
-        return UdpLink(host_port(rest, WANTED), broadcast=kind == "udpbcast")
+        return UdpLink(host_port(rest, target, WANTED), broadcast=kind == "udpbcast")
     if kind in ("udpin", "udp"):
-        return UdpListener(host_port(rest, WANTED))
+        return UdpListener(host_port(rest, target, WANTED))
     if kind == "tcp":
-        return TcpLink(host_port(rest, WANTED))
-    raise ParameterError(f"hook mavlink:{text}: must be {WANTED}")
+        return TcpLink(host_port(rest, target, WANTED))
+    raise ParameterError(f"hook {target}: must be {WANTED}")
 
 
 class SocketLink(Link):

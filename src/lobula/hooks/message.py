@@ -37,9 +37,9 @@ def told(kind: Kind, record: Mapping[str, Any]) -> Message:
 
 def reading_told(index: int, reading: Reading, picture: NDArray[np.uint8] | None = None) -> Message:
     """Return the reading of frame ``index`` as a message."""
-    values = (index, *reading[:5], *reading.spikes, reading.collision, reading.state)
-    plain = (value if isinstance(value, str) else np.asarray(value).item() for value in values)
-    record = {"type": "reading"} | dict(zip(TRACE_DTYPE.names or (), plain, strict=True))
+    numbers = (round(float(value), 6) for value in reading[:5])
+    values = (int(index), *numbers, *map(int, reading.spikes), bool(reading.collision), reading.state)
+    record = {"type": "reading"} | dict(zip(TRACE_DTYPE.names or (), values, strict=True))
     return Message("reading", record | {"unix_s": _now_s()}, picture)
 
 

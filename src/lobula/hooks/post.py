@@ -197,7 +197,8 @@ class Post:
 
     def _tell(self, problem: str) -> None:
         """Take note of trouble, and of its start if there was none; the lock is held."""
-        self._last_problem = problem
+        if self._problem is None or problem not in (TOO_SLOW, TOO_LATE):  # what follows from a cause does not hide it
+            self._last_problem = problem
         if self._problem is None:
             self._problem = problem
             self._before = (self._failures, self._dropped())

@@ -23,7 +23,7 @@ def make(target: str) -> Hook:
     """
     scheme, _, rest = target.partition(":")
     if scheme.lower() == "tcp":
-        return TcpLines(host_port(rest, "tcp:HOST:PORT"))
+        return TcpLines(host_port(rest, target, "tcp:HOST:PORT"))
     if not rest or len(rest.encode()) > _LONGEST_PATH:
         raise ParameterError(f"hook {target}: must be unix:PATH with at most {_LONGEST_PATH} bytes of path")
     return UnixLines(rest)
