@@ -20,6 +20,9 @@ from .pace import Pace
 RETRY_S, LONGEST_RETRY_S = 0.5, 30.0
 """First and longest wait before a lost peer is tried again; each wait is twice the one before."""
 
+LAST_TRIES = 2
+"""Failures in a row after which a hook is given up once the run is over: a link that broke unseen is made anew."""
+
 TOO_SLOW = "does not keep up: the oldest records are left out"
 TOO_LATE = "not delivered before the end"
 
@@ -119,15 +122,18 @@ class Post:
         """Run in the thread: deliver until the mailbox is closed and empty, or closed and the peer away."""
         while not self._connect() and not self._mailbox.closing:
             self._back_off()
-        while (parcel := self._mailbox.take()) is not None:
+        tries = LAST_TRIES
+        while tries and (parcel := self._mailbox.take()) is not None:
             self._in_hand = True
             if self._deliver(parcel.message):
+                tries = LAST_TRIES
                 continue
             self._mailbox.put_back(parcel)
             self._in_hand = False
             if self._mailbox.closing:
-                break
-            self._back_off()
+                tries -= 1
+            else:
+                self._back_off()
         self._disconnect()
 
     def _back_off(self) -> None:
@@ -211,9 +217,9 @@ class Post:
 def _reason(error: Exception) -> str:
     """Return in a few words what went wrong: what the system says of an error, or its own text."""
     if isinstance(error, OSError):
-        text = str(error.strerror or error or type(error).__name__)
+        text = error.strerror or str(error)
     elif isinstance(error, RefusedError):
         text = str(error)
     else:
         text = f"{type(error).__name__}: {error}"
-    return text.splitlines()[0]
+    return next(iter(text.splitlines()), type(error).__name__)
