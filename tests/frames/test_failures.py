@@ -142,9 +142,10 @@ def test_a_region_outside_the_picture_closes_the_file(tmp_path):
         lobula.frames.open(path, roi=(0, 0, 400, 400))
 
 
-def test_picture_before_the_first_frame():
+@pytest.mark.parametrize("name", ["picture", "decoded"])
+def test_picture_before_the_first_frame(name):
     with (
         lobula.frames.open(np.zeros((2, 72, 99), np.uint8)) as frames,
         pytest.raises(FrameSourceError, match="array: no picture before the first frame"),
     ):
-        frames.picture()
+        getattr(frames, name)()

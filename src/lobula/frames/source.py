@@ -5,14 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from types import TracebackType
-from typing import Any, Protocol, Self
+from typing import Any, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FrameSourceError
 from ..types import Frame
-from .geometry import View
+from .geometry import Layout, View
 from .luma import kind_of
 from .resize import Resizer
 from .sampler import Sampler
@@ -40,6 +40,13 @@ class Reader(Protocol):
 
     def close(self) -> None:
         """Let go of the file, camera or connection; more than once does no harm."""
+
+
+class Decoded(NamedTuple):
+    """One whole picture as the decoder gave it, and how it is turned upright; stays good after the next one came."""
+
+    data: Any
+    layout: Layout
 
 
 class FrameSource(ABC):
@@ -88,6 +95,17 @@ class FrameSource(ABC):
         if self._last is None:
             raise FrameSourceError(f"{self.name}: no picture before the first frame")
         return self._sampler.rgb(self._last.data)
+
+    def decoded(self) -> Decoded:
+        """Return the last frame's picture as decoded, at no cost: to be drawn later, or by another thread.
+
+        Raises
+        ------
+        FrameSourceError : no frame has been delivered yet
+        """
+        if self._last is None:
+            raise FrameSourceError(f"{self.name}: no picture before the first frame")
+        return Decoded(self._last.data, self._sampler.layout)
 
     def with_pictures(self) -> Iterator[tuple[Frame, NDArray[np.uint8]]]:
         """Yield every frame together with its whole picture, as ``picture`` gives it."""

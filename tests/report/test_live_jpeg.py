@@ -1,0 +1,61 @@
+"""JPEGs of pictures as decoded: the same picture as ``picture`` gives, upright, small, one after the other."""
+
+from __future__ import annotations
+
+import io
+
+import av
+import numpy as np
+import pytest
+
+import lobula
+from lobula.report.live_jpeg import LiveJpeg
+
+from ..frames.clips import write_clip
+
+
+def read(jpeg: bytes):
+    with av.open(io.BytesIO(jpeg)) as container:
+        return next(container.decode(video=0)).to_ndarray(format="rgb24")
+
+
+def quarters(height: int = 64, width: int = 96):
+    """Four quarters of different greys: no turn or mirror leaves it as it is."""
+    picture = np.empty((height, width), np.uint8)
+    picture[: height // 2, : width // 2], picture[: height // 2, width // 2 :] = 40, 90
+    picture[height // 2 :, : width // 2], picture[height // 2 :, width // 2 :] = 150, 220
+    return picture
+
+
+@pytest.mark.parametrize("how", [{}, {"rotate": 90}, {"rotate": 180, "flip": "h"}, {"rotate": 270}, {"flip": "v"}])
+def test_it_is_the_upright_picture(tmp_path, how):
+    clip = write_clip(tmp_path / "clip.mp4", [quarters()] * 3)
+    with lobula.open(clip, **how) as frames:
+        next(frames)
+        decoded, picture = frames.decoded(), frames.picture()
+        next(frames)  # what was handed over stays good
+    shown = read(LiveJpeg()(decoded))
+    assert shown.shape == picture.shape
+    assert np.abs(shown.astype(int) - picture).mean() < 4
+
+
+@pytest.mark.parametrize("how", [{}, {"rotate": 90}])
+def test_a_wide_one_is_made_small_and_keeps_its_shape(how):
+    with lobula.open(np.stack([quarters(400, 801)] * 2), **how) as frames:
+        next(frames)
+        shown = read(LiveJpeg(200)(frames.decoded()))
+    upright = (100, 200) if not how else (400, 200)
+    assert shown.shape[:2] == pytest.approx(upright, abs=1)
+    greys = np.sort(np.unique(shown[10::40, 10::60, 0].round(-1)))
+    assert greys[0] < 60
+    assert greys[-1] > 200
+
+
+def test_one_writer_takes_one_picture_after_the_other_of_any_size_and_kind():
+    write = LiveJpeg()
+    for images in (np.full((2, 64, 96), 50.4, np.float32), np.full((2, 64, 96), 200, np.uint8), quarters(30, 50)[None]):
+        with lobula.open(images) as frames:
+            next(frames)
+            shown = read(write(frames.decoded()))
+        assert shown.shape[:2] == images.shape[1:]
+        assert abs(shown.mean() - images.mean()) < 3
