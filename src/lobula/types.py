@@ -22,11 +22,15 @@ STATES: tuple[State, ...] = ("ok", "warming_up", "stale", "flash", "turning")
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One picture of a source: ``image`` (H, W) luminance 0..255, ``time_s`` its own stamp, ``index`` its number."""
+    """One picture of a source: ``image`` (H, W) luminance 0..255, ``time_s`` its own stamp, ``index`` its number.
+
+    ``captured_s`` is when it was captured, on the clock of ``time.monotonic``; None where nobody knows, as in a file.
+    """
 
     image: NDArray[np.uint8] | Image
     time_s: float
     index: int = 0
+    captured_s: float | None = None
 
 
 class Spikes(NamedTuple):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import heapq
 import time
-from typing import Any
+from typing import Any, NamedTuple
 
 from ..errors import FrameSourceError, ParameterError
 from .packets import stamp_of
@@ -13,6 +13,18 @@ UNSTAMPED = frozenset({"h261", "h263", "h264", "hevc", "m4v", "mjpeg", "mpegvide
 """Bare streams: they hold no time, and what a demuxer says of it is made up."""
 
 _ARRIVAL = UNSTAMPED | {"mpjpeg"}  # live, these take the time at which a picture came
+_KERNEL = "v4l2"  # its stamps are the driver's, of the same clock as time.monotonic
+_NEAR_S = 60.0  # a driver whose stamps lie further from now than this keeps another clock
+_IN_DECODER = 64  # packets whose arrival is remembered; no decoder holds as many
+
+
+class Moment(NamedTuple):
+    """When a picture was: ``time_s`` and number in the source; live, also its arrival and its capture if known."""
+
+    time_s: float
+    index: int
+    arrived_s: float | None = None
+    captured_s: float | None = None
 
 
 class Clock:
@@ -34,8 +46,12 @@ class Clock:
         self._name = name
         self._tick_s = tick_s
         self._rate_hz = rate_hz
+        self._live = live
         self._by_arrival = live and container_format in _ARRIVAL
-        self._arrived_s: float | None = None
+        self._by_kernel = live and _KERNEL in container_format.split(",")
+        self._first_arrived_s: float | None = None
+        self._arrived_s = 0.0  # of the newest packet
+        self._arrivals: dict[int, float] = {}  # by stamp, of the packets in the decoder
         # AVI stamps packets in the order of decoding: the n-th picture shown has the n-th smallest of those stamps
         self._by_decoding = container_format == "avi"
         self._untaken: list[int] = []
@@ -53,6 +69,12 @@ class Clock:
     def packet(self, packet: Any) -> None:
         """Take note of a packet that goes to the decoder."""
         stamp = stamp_of(packet)
+        if self._live:
+            self._arrived_s = time.monotonic()
+            if stamp is not None:
+                self._arrivals[stamp] = self._arrived_s
+            if len(self._arrivals) > _IN_DECODER:
+                del self._arrivals[next(iter(self._arrivals))]
         if stamp is None or packet.is_discard:
             return
         if self._by_decoding:
@@ -87,8 +109,8 @@ class Clock:
         self._lost.clear()
         self._jump = start, passed + sum(stamp < start for stamp in self._opening)
 
-    def read(self, frame: Any) -> tuple[float, int]:
-        """Return the time and the number of the next decoded picture.
+    def read(self, frame: Any) -> Moment:
+        """Return when the next decoded picture was.
 
         Raises
         ------
@@ -105,11 +127,21 @@ class Clock:
             self._lost = later
         index, self._index = self._index, self._index + 1
         if self._rate_hz is not None:
-            return index / self._rate_hz, index
-        if self._by_arrival:
-            now = time.monotonic()
-            self._arrived_s = now if self._arrived_s is None else self._arrived_s
-            return now - self._arrived_s, index
+            return Moment(index / self._rate_hz, index)
+        arrived_s = self._arrival(stamp) if self._live else None
+        if self._by_arrival and arrived_s is not None:
+            self._first_arrived_s = arrived_s if self._first_arrived_s is None else self._first_arrived_s
+            return Moment(arrived_s - self._first_arrived_s, index, arrived_s)
         if stamp is None or self._origin is None:
             raise FrameSourceError(f"{self._name}: frame {index}: no time stamp: must have one", on_the_way=index > 0)
-        return (stamp - self._origin) * self._tick_s, index
+        return Moment((stamp - self._origin) * self._tick_s, index, arrived_s, self._capture(stamp))
+
+    def _arrival(self, stamp: int | None) -> float:
+        """When the packet of a picture came, before it was decoded."""
+        return self._arrived_s if stamp is None else self._arrivals.pop(stamp, self._arrived_s)
+
+    def _capture(self, stamp: int) -> float | None:
+        """When the driver says that a picture was captured, if it keeps the clock that we do."""
+        captured_s = stamp * self._tick_s
+        near = self._by_kernel and 0.0 <= time.monotonic() - captured_s < _NEAR_S
+        return captured_s if near else None

@@ -12,11 +12,18 @@ from ..errors import FrameSourceError, ParameterError
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """One decoded picture before it is sampled: a PyAV video frame or an (H, W) array, its stamp and its number."""
+    """One decoded picture before it is sampled: a PyAV video frame or an (H, W) array, its stamp and its number.
+
+    Of live sources also when it came in and when it was captured, on the clock of ``time.monotonic``, and how often
+    the thread of pictures had broken off before it.
+    """
 
     data: Any
     time_s: float
     index: int
+    arrived_s: float | None = None
+    captured_s: float | None = None
+    breaks: int = 0
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -175,7 +175,7 @@ class VideoReader:
 
     def _keep(self, frame: Any) -> None:
         """Make a decoded picture ready, unless the decoder guessed parts of it or gave it too late."""
-        time_s, index = self._clock.read(frame)
+        moment = self._clock.read(frame)
         if frame.is_corrupt:
             self.damaged += 1
             self._broken = _DAMAGED_PICTURE
@@ -183,12 +183,12 @@ class VideoReader:
             return
         if self._broken == _DAMAGED_PICTURE:
             self._broken = None
-        if self._upset and time_s <= self._latest_s:
+        if self._upset and moment.time_s <= self._latest_s:
             self.damaged += 1
             return
         self._upset = max(0, self._upset - 1)
-        self._latest_s = time_s
-        self._ready.append(Picture(frame, time_s, index))
+        self._latest_s = moment.time_s
+        self._ready.append(Picture(frame, *moment))
 
     def _finish(self, last: Picture | None) -> None:
         """Say what there is to say about the end of the stream."""
