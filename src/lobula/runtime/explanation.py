@@ -115,10 +115,9 @@ def _with_following(source: FrameSource) -> Iterator[tuple[Frame, Frame | None]]
 
 
 def _explanation(frame: Frame, reading: Reading, p: NetworkParams, state: Mapping[str, Any]) -> Explanation:
-    decision = Decision(p.decision)
-    decision.window = deque(Entry(*map(float, row)) for row in state["window"])
+    decision = _decision(p, state)
     lgmd, lptc = decision.evidence(frame.time_s)
-    conditions = _conditions(frame.time_s, decision, state)
+    conditions = conditions_at(frame.time_s, p, state)
     layers = {name: _layer(reading.taps[name]) for name in TAPS}
     return Explanation(
         frame=frame, reading=reading, advanced=state["step_s"] == frame.time_s, layers=layers,
@@ -126,14 +125,23 @@ def _explanation(frame: Frame, reading: Reading, p: NetworkParams, state: Mappin
     )  # fmt: skip
 
 
+def _decision(p: NetworkParams, state: Mapping[str, Any]) -> Decision:
+    decision = Decision(p.decision)
+    decision.window = deque(Entry(*map(float, row)) for row in state["window"])
+    return decision
+
+
 def _layer(image: Image | NDArray[Any]) -> Layer:
     size = np.abs(image)
     return Layer(float(size.mean(dtype=np.float64)), float(size.max()))
 
 
-def _conditions(time_s: float, decision: Decision, state: Mapping[str, Any]) -> tuple[Condition, ...]:
-    """The rule of ``Decision.holds`` taken apart, and what keeps it from being asked at all."""
-    d = decision.p
+def conditions_at(time_s: float, p: NetworkParams, state: Mapping[str, Any]) -> tuple[Condition, ...]:
+    """Return the rule of ``Decision.holds`` taken apart, and what keeps it from being asked at all.
+
+    ``state`` is the ``state_dict`` of a network with the settings ``p`` as it was at ``time_s``, s.
+    """
+    d, decision = p.decision, _decision(p, state)
     a, b = (math.floor(x + 0.5) for x in decision.evidence(time_s))
     alone = d.neurons == "lgmd2"
     who, window = "LGMD-2" if alone else "both LGMDs", f"in the last {d.window_ms:g} ms"
