@@ -6,6 +6,7 @@ Every source gives the same: full-range luma at the working size, each frame wit
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from os import PathLike
 from typing import Any
 
@@ -16,7 +17,7 @@ from .inputs import InputOptions, open_reader
 from .live import FrameStream
 from .resize import AreaAverage, Rect, Resize, Resizer
 from .selection import Selection
-from .source import FrameSequence, FrameSource
+from .source import FrameSequence, FrameSource, Reader
 
 __all__ = ["AreaAverage", "FrameSequence", "FrameSource", "FrameStream", "Rect", "Resize", "Resizer", "open"]
 
@@ -40,6 +41,7 @@ def open(
     input_size: tuple[int, int] | None = None,
     threads: int = 1,
     timeout_s: float = 10.0,
+    reconnect_s: float = 0.0,
     resizer: Resizer | None = None,
 ) -> FrameSequence | FrameStream:
     """Return an open source of frames: a context manager and an iterator of ``Frame``.
@@ -63,6 +65,7 @@ def open(
     pixel_format, input_size : layout and (width, height) of a raw pipe's pictures; a request to a camera
     threads : decoder threads; 0 lets FFmpeg choose
     timeout_s : how long a camera or an address may stay silent
+    reconnect_s : how long a live source that went away is tried again; 0 not at all, infinity for ever
     resizer : makes the crop-and-average step for uint8 planes; by default ``AreaAverage``
 
     Returns
@@ -85,12 +88,18 @@ def open(
         input_size=input_size,
         threads=threads,
         timeout_s=timeout_s,
+        reconnect_s=reconnect_s,
     )
     reader, live = open_reader(source, options)
     try:
         if live:
-            return FrameStream(reader, view, selection, resizer, timeout_s)
+            again = partial(_reopen, source, options)
+            return FrameStream(reader, view, selection, resizer, timeout_s, again, reconnect_s)
         return FrameSequence(reader, view, selection, resizer)
     except BaseException:
         reader.close()
         raise
+
+
+def _reopen(source: Any, options: InputOptions) -> Reader:
+    return open_reader(source, options)[0]

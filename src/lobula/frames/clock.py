@@ -22,7 +22,7 @@ class Moment(NamedTuple):
     """When a picture was: ``time_s`` and number in the source; live, also its arrival and its capture if known."""
 
     time_s: float
-    index: int
+    number: int
     arrived_s: float | None = None
     captured_s: float | None = None
 

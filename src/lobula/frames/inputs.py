@@ -43,12 +43,17 @@ class InputOptions:
     input_size: tuple[int, int] | None = None
     threads: int = 1
     timeout_s: float = 10.0
+    reconnect_s: float = 0.0
 
     def __post_init__(self) -> None:
         if self.rate_hz is not None and not _positive(self.rate_hz):
             raise ParameterError(f"rate_hz = {self.rate_hz!r}: must be a number of pictures per second above 0")
         if not _positive(self.timeout_s):
             raise ParameterError(f"timeout_s = {self.timeout_s!r}: must be a number of seconds above 0")
+        if not (_positive(self.reconnect_s) or self.reconnect_s in (0, math.inf)) or self.reconnect_s is False:
+            raise ParameterError(
+                f"reconnect_s = {self.reconnect_s!r}: must be a number of seconds of 0 or more; infinity tries for ever"
+            )
         if isinstance(self.threads, bool) or not isinstance(self.threads, int) or self.threads < 0:
             raise ParameterError(f"threads = {self.threads!r}: must be a whole number; 0 lets FFmpeg choose")
         size = self.input_size

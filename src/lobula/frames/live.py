@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-import math
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 from ..errors import FrameSourceError
 from ..types import Frame
 from .geometry import View
+from .luma import kind_of
+from .reconnect import News, Reconnecting
 from .resize import Resizer
 from .selection import Picture, Selection
 from .source import FrameSource, Reader
+from .timeline import Timeline, Transit
 
 _PATIENCE_S = 1.0  # how long close() waits for a decoder that waits for its camera
 _WAKE_S = 0.1
@@ -21,7 +24,10 @@ _WAKE_S = 0.1
 class FrameStream(FrameSource):
     """The newest frame whenever one is asked for; ``dropped`` counts those that were overtaken.
 
-    Frames whose stamp does not come after the one before count as dropped too. ``__next__`` waits ``timeout_s``.
+    Frames out of order count as dropped too. ``__next__`` waits ``timeout_s``, and as long as a source that went away
+    is being tried. With ``reopen`` that goes on for ``reconnect_s``; ``news`` tells of it. ``breaks`` counts where the
+    last frame's past ends: another connection, another count of stamps, pictures of another size. What looks at frame
+    after frame should begin anew there.
     """
 
     live = True
@@ -33,9 +39,15 @@ class FrameStream(FrameSource):
         selection: Selection,
         resizer: Resizer | None = None,
         timeout_s: float = 10.0,
+        reopen: Callable[[], Reader] | None = None,
+        reconnect_s: float = 0.0,
     ) -> None:
-        super().__init__(reader, view, selection, resizer)
+        link = Reconnecting(reader, reopen, reconnect_s)
+        super().__init__(link, view, selection, resizer)
         self.frame_count = selection.expected(None, reader.fps)
+        self.breaks = 0
+        self._link = link
+        self._resized = 0
         self._timeout_s = timeout_s
         self._changed = threading.Condition()
         self._newest: Picture | None = None
@@ -51,12 +63,22 @@ class FrameStream(FrameSource):
         with self._changed:
             return self._enough() or (self._ended and self._newest is None and self._error is None)
 
+    @property
+    def away(self) -> bool:
+        """True while there is no connection and it is being tried again."""
+        return self._link.away
+
+    def news(self) -> list[News]:
+        """Return what became of the connection since the last call, oldest first."""
+        return self._link.news()
+
     def poll(self, timeout_s: float) -> Frame | None:
         """Return the newest frame not yet delivered, waiting up to ``timeout_s`` for one; None when none came.
 
         Raises
         ------
         FrameSourceError : the source failed; raised after the frames that came before
+        ParameterError : its pictures are of another size now, in which the region of interest or the mask has no place
         """
         if self._enough():
             return None
@@ -81,47 +103,67 @@ class FrameStream(FrameSource):
             frame = self.poll(min(_WAKE_S, max(0.0, left_s)))
             if frame is not None:
                 return frame
-            if left_s <= 0 and not self.ended:
+            if self.away:
+                deadline_s = time.monotonic() + self._timeout_s
+            elif left_s <= 0 and not self.ended:
                 raise FrameSourceError(f"{self.name}: no frame for {self._timeout_s:g} s", on_the_way=True)
         raise StopIteration
 
     def close(self) -> None:
         """Stop reading; a decoder still waiting for its camera is left to time out."""
         self._closing.set()
+        self._link.stop()
         self._thread.join(_PATIENCE_S)
         with self._changed:
             self._ended = True
             self._newest = None
             self._changed.notify_all()
 
+    def _deliver(self, picture: Picture) -> Frame:
+        now = kind_of(picture.data)
+        if now[:2] != self._sampler.kind[:2]:
+            self._link.tell("resized", width=now[0], height=now[1])
+            self._lay_out(picture.data)
+            self._resized += 1
+        self.breaks = picture.breaks + self._resized
+        return super()._deliver(picture)
+
     def _read(self) -> None:
         """Run in the thread: put every wanted picture where the consumer finds it, over the one that lies there."""
         error: Exception | None = None
         try:
-            for picture in self._selection.within(self._later_ones()):
+            for picture in self._selection.within(self._placed()):
                 with self._changed:
                     self.dropped += self._newest is not None
                     self._newest = picture
                     self._changed.notify_all()
         except Exception as caught:  # travels to the consumer as a value: this thread has nobody to tell
-            error = caught
+            error = None if self._closing.is_set() else caught
         finally:
-            self._reader.close()
+            self._link.close()
             with self._changed:
                 self._ended, self._error = True, error
                 self._changed.notify_all()
 
-    def _later_ones(self) -> Iterator[Picture]:
-        """Yield the pictures until the stream is closed, without those whose stamps do not increase."""
-        previous_s = -math.inf
-        for picture in self._reader.pictures():
+    def _placed(self) -> Iterator[Picture]:
+        """Yield the pictures until the stream is closed, each with its place in time, without those out of order."""
+        timeline, transit = Timeline(), Transit()
+        connections, breaks = self._link.connections, 0
+        for picture in self._link.pictures():
             if self._closing.is_set():
                 return
-            if picture.time_s > previous_s:
-                previous_s = picture.time_s
-                yield picture
-            else:
+            if self._link.connections != connections:
+                connections = self._link.connections
+                timeline.connect()
+            arrived_s = time.monotonic() if picture.arrived_s is None else picture.arrived_s
+            time_s = timeline.place(picture.time_s, arrived_s)
+            if time_s is None:
                 with self._changed:
                     self.dropped += 1
-        if not self._closing.is_set():
-            raise FrameSourceError(f"{self.name}: the stream ended", on_the_way=True)
+                continue
+            if timeline.breaks != breaks:
+                breaks = timeline.breaks
+                transit.restart()
+            estimate_s = transit.captured(time_s, arrived_s)
+            captured_s = estimate_s if picture.captured_s is None else picture.captured_s
+            yield replace(picture, time_s=time_s, captured_s=captured_s, breaks=breaks)

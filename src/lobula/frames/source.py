@@ -23,17 +23,24 @@ class Reader(Protocol):
     """Where pictures come from; one class for each kind of source.
 
     ``first`` is the first picture's data, decoded when the reader was made, and is delivered again by ``pictures``.
-    ``rotation`` is what the container asks for, degrees clockwise. ``damaged`` counts pictures that could not be
-    decoded; ``notes`` are lines for the user about what is odd but no error.
     """
 
     name: str
     fps: float
     frame_count: int | None
-    rotation: int
     first: Any
-    damaged: int
-    notes: list[str]
+
+    @property
+    def rotation(self) -> int:
+        """What the container asks for, degrees clockwise."""
+
+    @property
+    def damaged(self) -> int:
+        """How many pictures could not be decoded."""
+
+    @property
+    def notes(self) -> list[str]:
+        """Lines for the user about what is odd but no error."""
 
     def pictures(self, start_s: float | None = None) -> Iterator[Picture]:
         """Yield the pictures in order; those well before ``start_s`` may be left out."""
@@ -62,13 +69,11 @@ class FrameSource(ABC):
 
     def __init__(self, reader: Reader, view: View, selection: Selection, resizer: Resizer | None = None) -> None:
         self._reader = reader
+        self._view, self._resizer = view, resizer
         self._selection = selection
-        self._sampler = Sampler(view, reader.first, reader.rotation, reader.name, resizer)
-        layout = self._sampler.layout
         self.name = reader.name
         self.width, self.height = view.size
-        self.source_width, self.source_height = layout.width, layout.height
-        self.seen = layout.seen
+        self._lay_out(reader.first)
         self.fps = reader.fps
         self.frame_count = selection.expected(reader.frame_count, reader.fps)
         self.dropped = 0
@@ -131,6 +136,13 @@ class FrameSource(ABC):
     def __next__(self) -> Frame:
         """Return the next frame."""
 
+    def _lay_out(self, data: Any) -> None:
+        """Work out the view on pictures like ``data``."""
+        self._sampler = Sampler(self._view, data, self._reader.rotation, self.name, self._resizer)
+        layout = self._sampler.layout
+        self.source_width, self.source_height = layout.width, layout.height
+        self.seen = layout.seen
+
     def _enough(self) -> bool:
         return self._delivered == self._selection.max_frames
 
@@ -139,7 +151,7 @@ class FrameSource(ABC):
             self._sampler.adapt(picture.data, f"{self.name}: frame {picture.index}")
         self._last = picture
         self._delivered += 1
-        return Frame(self._sampler(picture.data), picture.time_s, picture.index)
+        return Frame(self._sampler(picture.data), picture.time_s, picture.index, picture.captured_s)
 
 
 class FrameSequence(FrameSource):
