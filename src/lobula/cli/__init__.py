@@ -19,6 +19,7 @@ VERBS = {
     "plot": "draw a saved trace",
     "explain": "why it did, or did not, alarm at a given moment",
     "stimulus": "write a synthetic movie with a known answer as a clip",
+    "tune": "search settings on movies, clips or the arena, with a held-out score",
     "track": "find robots in a recording from above by their ID patterns, and score them",
     "bench": "measure this machine",
     "config": "show every setting and its origin; make or check a settings file",

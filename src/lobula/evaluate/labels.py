@@ -14,7 +14,7 @@ REQUIRED = ("file", "collision")
 CONTACT = ("contact_frame", "contact_uncertainty_frames")
 """Needed where a row has a collision."""
 
-OPTIONAL = ("event", "class", "confidence")
+OPTIONAL = ("event", "class", "confidence", "group", "split")
 
 _TRUTH = {"1": True, "true": True, "yes": True, "0": False, "false": False, "no": False}
 
@@ -31,6 +31,8 @@ class Label:
     kind : class of the clip: its own column, or the words of ``event`` before the first colon, comma or bracket
     event : what happens, in words
     confidence : of whoever labelled it: high, medium, low, or nothing
+    group : clips of one source, such as one camera or one day, which are alike; empty where nobody said
+    split : what the clip may be used for: "test" keeps it out of every search
     """
 
     file: str
@@ -39,6 +41,8 @@ class Label:
     kind: str
     event: str = ""
     confidence: str = ""
+    group: str = ""
+    split: str = ""
 
     @property
     def collision(self) -> bool:
@@ -117,6 +121,8 @@ def _label(row: Mapping[str, str | None], where: str) -> Label:
         kind=kind,
         event=cells["event"],
         confidence=cells["confidence"],
+        group=cells["group"],
+        split=cells["split"],
     )
 
 
