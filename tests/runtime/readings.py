@@ -6,6 +6,7 @@ import numpy as np
 
 from lobula.errors import OutputError
 from lobula.frames import FrameStream
+from lobula.frames.reconnect import News
 from lobula.types import TRACE_DTYPE, Frame, Reading, Spikes
 
 RATE_HZ = 30.0
@@ -64,10 +65,14 @@ class Source:
 
 
 class LiveSource(FrameStream):
-    """A camera whose script is frames and, for silence, the seconds it lasts; time is its own ``clock``."""
+    """A camera whose script is frames, for silence the seconds it lasts, and ``News``; time is its own ``clock``.
+
+    ``breaks`` counts the news that the source is back or resized, as a stream does.
+    """
 
     def __init__(self, script, clock):
         self.script, self.clock = list(script), clock
+        self.breaks, self._news = 0, []
         self.name, self.width, self.height, self.fps, self.dropped = "camera", 99, 72, 30.0, 2
         self.frame_count = None
 
@@ -77,8 +82,16 @@ class LiveSource(FrameStream):
     def ended(self):
         return not self.script
 
+    def news(self):
+        news, self._news = self._news, []
+        return news
+
     def poll(self, timeout_s):
         item = self.script.pop(0)
+        if isinstance(item, News):
+            self._news.append(item._replace(at_s=self.clock.now))
+            self.breaks += item.phase in ("back", "resized")
+            return None
         if isinstance(item, float):
             self.clock.now += item
             return None

@@ -9,10 +9,11 @@ import pytest
 
 from lobula.errors import FrameSourceError, OutputError, ParameterError, TimeError
 from lobula.frames import open as open_frames
-from lobula.runtime import loop
-from lobula.runtime.loop import run, unbegun_summary
+from lobula.runtime import tally, watch
+from lobula.runtime.loop import run
 from lobula.runtime.ndjson import ReaderGoneError
 from lobula.runtime.outputs import Outputs
+from lobula.runtime.tally import unbegun_summary
 
 from .readings import Clock, LiveSource, Network, Sink, Source, frames
 
@@ -153,7 +154,8 @@ def test_a_frame_without_a_yaw_rate(known_until_s, status, code):
 
 def live(monkeypatch, script, network=None):
     clock, sink = Clock(), RecordingSink()
-    monkeypatch.setattr(loop, "time", clock)
+    for module in (watch, tally):
+        monkeypatch.setattr(module, "time", clock)
     outcome, _ = outcome_of(LiveSource(script, clock), [sink], network)
     return outcome, sink.records, sink.states
 

@@ -71,7 +71,7 @@ def run(
     from ..engine.network import Network
     from ..model.scaling import scaled
     from ..runtime.interrupts import Interrupted
-    from ..runtime.loop import unbegun_summary
+    from ..runtime.tally import unbegun_summary
     from ..runtime.ndjson import NdjsonSink, ReaderGoneError
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw

@@ -62,7 +62,9 @@ class ReportPage:
             self._illustrate(event)
 
     def event(self, record: Mapping[str, Any]) -> None:
-        """Start an event, or end the one that it names."""
+        """Start an event, or end the one that it names; what became of the source shows as the state ``stale``."""
+        if record["type"] not in ("collision", "state"):
+            return
         name = "collision" if record["type"] == "collision" else str(record["state"])
         if record["phase"] == "start":
             event = Event(name, record.get("id"), int(record["frame"]), float(record["time_s"]), dict(record))

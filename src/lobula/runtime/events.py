@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -45,13 +46,13 @@ class EventLog:
     def __init__(self) -> None:
         self.collisions: list[Collision] = []
         self._open: Collision | None = None
-        self._state: State = "ok"
+        self.state: State = "ok"
         self._last: tuple[int, float] | None = None
 
     def step(self, index: int, reading: Reading) -> list[Record]:
         """Take the reading of frame ``index`` and return what it starts or ends, oldest first."""
         self._last = (index, reading.time_s)
-        records = self.elapse(reading.time_s)
+        records = self._elapse(reading.time_s)
         records += self.enter(reading.state, index, reading.time_s)
         if reading.collision:
             records += self._alarm(index, reading)
@@ -61,15 +62,25 @@ class EventLog:
 
     def enter(self, state: State, index: int, time_s: float) -> list[Record]:
         """Change to ``state`` and return the records of it; ``ok`` is the absence of a state and has none."""
-        if state == self._state:
+        if state == self.state:
             return []
-        left, self._state = self._state, state
+        left, self.state = self.state, state
         ends = [] if left == "ok" else [_state_record(left, "end", index, time_s)]
         starts = [] if state == "ok" else [_state_record(state, "start", index, time_s)]
         return ends + starts
 
     def elapse(self, time_s: float) -> list[Record]:
         """Let time pass, as while a camera is silent; return the end of a collision that has become final."""
+        if self._last is not None:
+            self._last = (self._last[0], max(self._last[1], time_s))
+        return self._elapse(time_s)
+
+    def lose(self, index: int, time_s: float) -> list[Record]:
+        """The source gives nothing: what was under way is over, and the state is ``stale``."""
+        records = self.elapse(time_s) + self._cut(index, time_s)
+        return records + self.enter("stale", index, time_s)
+
+    def _elapse(self, time_s: float) -> list[Record]:
         event = self._open
         if event is None or event.end_frame is None or time_s - event.end_s <= REJOIN_S + _JITTER_S:
             return []
@@ -81,13 +92,16 @@ class EventLog:
         if self._last is None:
             return []
         index, time_s = self._last
-        records = []
-        if self._open is not None:
-            if self._open.end_frame is None:
-                self._open.end_frame, self._open.end_s = index, time_s
-            records = [_end_record(self._open)]
-            self._open = None
-        return records + self.enter("ok", index, time_s)
+        return self._cut(index, time_s) + self.enter("ok", index, time_s)
+
+    def _cut(self, index: int, time_s: float) -> list[Record]:
+        """End a collision that is under way here and now, one that has ended where it did."""
+        event, self._open = self._open, None
+        if event is None:
+            return []
+        if event.end_frame is None:
+            event.end_frame, event.end_s = index, time_s
+        return [_end_record(event)]
 
     def _alarm(self, index: int, reading: Reading) -> list[Record]:
         strength = min(reading.lgmd1, reading.lgmd2)
@@ -146,6 +160,11 @@ def _end_record(event: Collision) -> Record:
 
 def _state_record(state: State, phase: str, index: int, time_s: float) -> Record:
     return {"type": "state", "state": state, "phase": phase, "frame": index, "time_s": _told(time_s)}
+
+
+def source_record(phase: str, index: int, time_s: float, facts: Mapping[str, Any]) -> Record:
+    """Return the record of what became of a live source after frame ``index``."""
+    return {"type": "source", "phase": phase, "frame": index, "time_s": _told(time_s), **facts}
 
 
 def _told(time_s: float) -> float:

@@ -43,7 +43,7 @@ class NdjsonSink:
         self._begin()
 
     def event(self, record: Mapping[str, Any]) -> None:
-        """Write one state or collision record."""
+        """Write one state, collision or source record."""
         self._begin()
         self._write(record)
 

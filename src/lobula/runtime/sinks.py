@@ -33,7 +33,7 @@ class Sink(Protocol):
         """Take one frame's reading; ``picture`` is valid during this call and until the next ``frame``."""
 
     def event(self, record: Mapping[str, Any]) -> None:
-        """Take one state or collision record; it may come before or after the ``frame`` it names."""
+        """Take one state, collision or source record; it may come before or after the ``frame`` it names."""
 
     def close(self, summary: Mapping[str, Any]) -> None:
         """Finish. ``summary`` is the NDJSON summary record."""
