@@ -53,7 +53,7 @@ def delivered(hook, *records, readings=()):
 
 
 class Scripted(Hook):
-    """Notes what it was given. ``plan`` holds what the next sends do: None takes the message, an exception is raised."""
+    """Notes what it was given. ``plan`` holds what the next sends do: take the message (None), or raise this."""
 
     def __init__(self, plan=(), connects=(), name="scripted"):
         super().__init__(name)

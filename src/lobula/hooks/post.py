@@ -44,7 +44,7 @@ class Post:
         self._header: Record = {}
         self._thread: threading.Thread | None = None
         self._connected = False
-        self._lock = threading.Lock()  # the counts and the news below: both threads write them
+        self._lock = threading.Lock()  # both threads write the counts and the news; taken before the mailbox's own
         self._news: list[Record] = []
         self._sent = self._failures = self._given_up = 0
         self._in_hand = False
@@ -82,8 +82,8 @@ class Post:
         if self._thread is None:
             return
         self._thread.join(duration_s)
-        lost = self._mailbox.empty()
         with self._lock:
+            lost = self._mailbox.empty()
             if self._in_hand:
                 self._in_hand = False
                 self._given_up += 1
@@ -128,8 +128,9 @@ class Post:
             if self._deliver(parcel.message):
                 tries = LAST_TRIES
                 continue
-            self._mailbox.put_back(parcel)
-            self._in_hand = False
+            with self._lock:
+                self._mailbox.put_back(parcel)
+                self._in_hand = False
             if self._mailbox.closing:
                 tries -= 1
             else:
