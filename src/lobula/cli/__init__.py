@@ -13,6 +13,7 @@ from .._version import __version__
 VERBS = {
     "demo": "see it work: no camera, no window; who spiked when, and a picture",
     "run": "watch a clip, a camera or a pipe: collisions, traces, annotated video, report",
+    "batch": "many clips on all cores or a cluster; what is done already is not done again",
     "evaluate": "score labelled clips: hits, lead times, false alarms a minute",
     "arena": "several robots in a room: contacts, avoidances, success rates",
     "reproduce": "the paper's figures made again, and which of its claims hold",
@@ -60,6 +61,6 @@ def help_text() -> str:
         f"Verbs:\n{lines}\n\n"
         "`lobula VERB --help` says what a verb takes; every verb has --json. `lobula --version` says which this is.\n"
         "Exit codes: 0 done; 1 demo did not see what it must, or a fault of lobula's own; 2 the request or its input\n"
-        "was wrong; 3 the source or an output failed on the way; 4 evaluate could not score some clips;\n"
+        "was wrong; 3 the source or an output failed on the way; 4 some clips of evaluate or batch failed;\n"
         "130 or 143 interrupted."
     )

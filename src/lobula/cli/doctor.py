@@ -19,6 +19,7 @@ EXTRAS = {
     "plot": (("matplotlib",), "figures, as of lobula plot"),
     "parquet": (("pyarrow",), "traces in .parquet"),
     "opencv": (("cv2",), "lobula track, robots seen from above"),
+    "dask": (("distributed",), "a cluster for lobula batch"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

@@ -1,0 +1,130 @@
+"""The same clips over a Dask cluster: one on this machine, or one whose scheduler is given by its address."""
+
+from __future__ import annotations
+
+import logging
+import threading
+from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
+from functools import partial
+from importlib import import_module
+from types import TracebackType
+from typing import Any, Self
+
+from ..errors import LobulaError, MissingExtraError, OutputError, ParameterError, pip_install
+from .clips import Clip
+from .crew import Outcome
+from .request import Request
+from .work import Answer, Desk
+
+LOCAL = "dask"
+"""The address of a cluster that is made for this batch, on this machine."""
+
+_ANSWERS_IN_S = 10.0
+
+_desks = threading.local()
+"""In a worker: the desk of each of its threads, with the request that it is for."""
+
+
+class Cluster:
+    """A context with a Dask cluster; ``each`` does with it what ``Crew.each`` does with processes.
+
+    The clips and the output folder must be there under the same path for every worker. A worker that dies is replaced,
+    its clips go to others; Dask does so three times for each clip.
+
+    Raises
+    ------
+    ParameterError : no cluster at the address, or no worker in it
+    MissingExtraError : Dask is not installed
+    """
+
+    def __init__(self, request: Request, workers: int, address: str) -> None:
+        self._request = request
+        self._address = address
+        self._open = ExitStack()
+        self._dask = _distributed()
+        self.workers = workers
+
+    def __enter__(self) -> Self:
+        with ExitStack() as opening:
+            if self._address == LOCAL:
+                logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it tells of workers, we tell
+                cluster = self._dask.LocalCluster(
+                    n_workers=self.workers, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
+                )
+                self._client = opening.enter_context(self._dask.Client(opening.enter_context(cluster)))
+            else:
+                self._client = opening.enter_context(self._connected())
+            self._open = opening.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._open.close()
+
+    def each(self, clips: Iterable[Clip]) -> Iterator[tuple[Clip, Outcome]]:
+        """Yield each clip and what became of it, as they are finished.
+
+        Raises
+        ------
+        LobulaError : what ends the whole batch: an output that cannot be written, a worker with other code
+        OutputError : the cluster is gone
+        """
+        chosen = list(clips)
+        futures = self._client.map(partial(_do, self._request), chosen, pure=False)
+        of = dict(zip(futures, chosen, strict=True))
+        try:
+            for future in self._dask.as_completed(futures):
+                yield of.pop(future), self._outcome(future)
+        finally:
+            if of:
+                self._client.cancel(list(of))
+
+    def _outcome(self, future: Any) -> Outcome:
+        if future.status in ("cancelled", "lost"):
+            raise OutputError(f"--cluster {self._address}: the scheduler is gone; what was finished by then is there")
+        if future.status == "error":
+            error = future.exception()
+            if isinstance(error, self._dask.KilledWorker):
+                return "its worker ended in the middle of it, again and again"
+            raise OutputError(f"--cluster {self._address}: a worker cannot work: {error!r}")
+        answer: Answer | LobulaError = future.result()
+        if isinstance(answer, LobulaError):
+            raise answer
+        return answer
+
+    def _connected(self) -> Any:
+        """Connect to the scheduler and see that there is a worker."""
+        try:
+            client = self._dask.Client(self._address, timeout=_ANSWERS_IN_S)
+        except (OSError, ValueError, ImportError) as error:  # no answer; no such thing as this address
+            raise ParameterError(
+                f"--cluster {self._address}: no Dask scheduler answers: must be {LOCAL} or an address such as "
+                "tcp://10.0.0.1:8786"
+            ) from error
+        try:
+            client.wait_for_workers(1, timeout=_ANSWERS_IN_S)
+        except TimeoutError as error:
+            client.close()
+            raise ParameterError(f"--cluster {self._address}: has no worker: must have one at least") from error
+        self.workers = len(client.scheduler_info(n_workers=-1)["workers"])
+        return client
+
+
+def _do(request: Request, clip: Clip) -> Answer | LobulaError:
+    """Do a clip in a worker; an error that ends the batch is an answer: Dask would print it on every machine."""
+    try:
+        if getattr(_desks, "request", None) != request:
+            _desks.desk, _desks.request = Desk(request), request
+        answer: Answer = _desks.desk.do(clip)
+    except LobulaError as error:
+        return error
+    return answer
+
+
+def _distributed() -> Any:
+    try:
+        return import_module("distributed")
+    except ImportError as error:
+        raise MissingExtraError(f"--cluster needs Dask: {pip_install('dask')}") from error

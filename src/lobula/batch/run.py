@@ -1,0 +1,130 @@
+"""A whole batch: every clip once, and a table and a summary at the end, whatever that end is."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from types import TracebackType
+from typing import Protocol, Self
+
+from .._version import __version__
+from ..errors import LobulaError, OutputError
+from ..runtime.interrupts import Interrupted
+from .claim import sweep
+from .clips import Clip
+from .crew import Outcome
+from .manifest import Manifest
+from .places import work_folder
+from .request import Request, write_settings
+from .row import Row, now
+from .summary import Summary, summarise, write_table
+from .work import Answer
+
+_AGAIN_S = 0.2  # between two looks at a clip that another run has in hand
+
+
+class Hands(Protocol):
+    """Who does the work: processes, or a cluster. A context; ``workers`` is how many there are."""
+
+    workers: int
+
+    def __enter__(self) -> Self:
+        """Make ready."""
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        """Let go of them; what they are at is left undone."""
+
+    def each(self, clips: Iterable[Clip]) -> Iterator[tuple[Clip, Outcome]]:
+        """Yield each clip and what became of it, as they are finished."""
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a batch ended.
+
+    rows : of every clip, in the order of the clips
+    stop : the signal, or the error, that ended it before all were done; None
+    """
+
+    rows: tuple[Row, ...]
+    summary: Summary
+    stop: Interrupted | LobulaError | None
+
+
+def run_batch(
+    clips: Sequence[Clip], request: Request, hands: Hands, tell: Callable[[Row], None] = lambda row: None
+) -> Ended:
+    """Do what is not done yet of ``clips`` and return how it ended; ``tell`` is called with each row as it comes.
+
+    A clip with the same content, settings and code as one that is in the manifest is done already, also where another
+    run in the same folder did it a moment ago; what another run has in hand is waited for.
+
+    Raises
+    ------
+    OutputError : the output folder cannot be written into at all
+    """
+    begun_s = time.monotonic()
+    write_settings(request)
+    sweep(work_folder(request.out))
+    found: dict[Clip, Answer] = {}
+    stop: Interrupted | LobulaError | None = None
+    try:
+        with hands:
+            for clip, answer in _answers(clips, request, hands):
+                found[clip] = answer
+                if answer.row is not None:
+                    tell(answer.row)
+    except (Interrupted, LobulaError) as error:
+        stop = error
+    rows = tuple(_row(clip, found.get(clip), request) for clip in clips)
+    fresh = [answer.row for answer in found.values() if answer.fresh and answer.row is not None]
+    seconds = time.monotonic() - begun_s
+    summary = summarise(rows, fresh, request, workers=hands.workers, seconds=seconds, stop=stop)
+    try:
+        sweep(work_folder(request.out))
+        write_table(rows, summary, request.out)
+    except OutputError as error:
+        stop = stop or error
+    return Ended(rows, summary, stop)
+
+
+def _answers(clips: Sequence[Clip], request: Request, hands: Hands) -> Iterator[tuple[Clip, Answer]]:
+    """Yield each clip with its answer; those that somebody else is at are asked about again until they are done."""
+    left = sorted(clips, key=_size, reverse=True)  # so that all workers end together
+    while left:
+        busy = []
+        for clip, outcome in hands.each(left):
+            answer = outcome if isinstance(outcome, Answer) else _killed(clip, outcome, request)
+            if answer.row is None:
+                busy.append(clip)
+            else:
+                yield clip, answer
+        if busy and len(busy) == len(left):
+            time.sleep(_AGAIN_S)
+        left = busy
+
+
+def _killed(clip: Clip, problem: str, request: Request) -> Answer:
+    """The answer of a clip that nobody came back from; the manifest is told in their place."""
+    row = Row(
+        file=clip.name, status="failed", settings=request.settings, code=request.code, version=__version__,
+        date=now(), problem=problem,
+    )  # fmt: skip
+    Manifest(request.out).add(row)
+    return Answer(row, fresh=True)
+
+
+def _row(clip: Clip, answer: Answer | None, request: Request) -> Row:
+    if answer is not None and answer.row is not None:
+        return answer.row
+    return Row(file=clip.name, status="unfinished", settings=request.settings, code=request.code)
+
+
+def _size(clip: Clip) -> int:
+    try:
+        return clip.path.stat().st_size
+    except OSError:
+        return 0
