@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lobula.hooks.mailbox import Mailbox
@@ -11,6 +11,7 @@ from lobula.hooks.message import Message
 steps = st.lists(st.sampled_from(["event", "summary", "reading", "take", "take and put back"]), max_size=60)
 
 
+@settings(max_examples=50)
 @given(steps, st.integers(1, 4), st.integers(1, 4))
 def test_it_holds_the_newest_in_the_order_they_came(steps, events_kept, readings_kept):
     mailbox, model, lost = Mailbox(events_kept, readings_kept), [], 0

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from itertools import pairwise
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from lobula.hooks.pace import Pace
 
 
+@settings(max_examples=50)
 @given(st.floats(0.1, 1000), st.lists(st.floats(1e-4, 1), min_size=2, max_size=100))
 def test_never_more_than_the_rate_and_the_first_at_once(rate_hz, gaps):
     pace, time_s, due = Pace(rate_hz), 5.0, []

@@ -106,10 +106,10 @@ class Mqtt(Hook):
         self._client = None
 
     def _publish(
-        self, name: str, payload: bytes, quality: int, *, retain: bool = False, timeout_s: float = TIMEOUT_S
+        self, name: str, payload: bytes, quality: int, *, retain: bool = False, timeout_s: float | None = None
     ) -> None:
         assert self._client is not None
-        deadline_s = time.monotonic() + timeout_s
+        deadline_s = time.monotonic() + (TIMEOUT_S if timeout_s is None else timeout_s)
         handed = self._client.publish(f"{self._topic}/{name}", payload, quality, retain)
         while self._client.is_connected() and time.monotonic() < deadline_s:
             with suppress(RuntimeError):  # the connection went meanwhile: seen by the line above
