@@ -13,8 +13,8 @@ from av.error import FFmpegError
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from .h264 import TICK, require_h264
 from .landing import whole_file
-from .mp4 import TICK, require_h264
 
 CLIP_SUFFIXES = (".mp4", ".mkv")
 _FULL_RANGE = 2

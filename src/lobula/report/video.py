@@ -15,7 +15,8 @@ from ..errors import OutputError, ParameterError
 from ..runtime.sinks import Picture
 from ..types import Reading
 from .canvas import Canvas, border, label, rgb, text
-from .mp4 import Mp4Writer, require_h264
+from .h264 import require_h264
+from .mp4 import Mp4Writer
 from .palette import DARK, STATE_LABELS, thresholds
 from .strip import STRIP_HEIGHT, Strip
 from .trace import facts
