@@ -137,8 +137,9 @@ def make_certificate(folder):
     """A key and a certificate of 127.0.0.1 that it signs itself, in one file."""
     path = folder / "own.pem"
     subprocess.run(
-        ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2", "-subj", "/CN=127.0.0.1",
-         "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", path, "-out", folder / "certificate.pem"],
+        ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2",
+         "-subj", "/CN=127.0.0.1", "-addext", "subjectAltName=IP:127.0.0.1", "-keyout", path,
+         "-out", folder / "certificate.pem"],
         check=True, capture_output=True,
     )  # fmt: skip
     path.write_text(path.read_text() + (folder / "certificate.pem").read_text())

@@ -20,6 +20,8 @@ EXTRAS = {
     "parquet": (("pyarrow",), "traces in .parquet"),
     "opencv": (("cv2",), "lobula track, robots seen from above"),
     "dask": (("distributed",), "a cluster for lobula batch"),
+    "mqtt": (("paho",), "--hook mqtt://, records to a broker"),
+    "mavlink": (("pymavlink", "serial"), "--hook mavlink:, alarms for an autopilot"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

@@ -34,6 +34,8 @@ class NdjsonFile(Hook):
     When the disk was full and has room again the file goes on; no line in it is ever torn.
     """
 
+    readings_kept = 10_000  # a recording is read faster than real time, and a disk may take a moment
+
     def __init__(self, path: Path) -> None:
         super().__init__(f"ndjson:{path}")
         self.path: Path = path

@@ -44,6 +44,6 @@ def make_hook(target: str) -> Hook:
     if kind is None or not colon:
         # the word alone: what follows may hold a password
         forms = ", ".join(one.form for one in KINDS.values())
-        raise ParameterError(f"hook {scheme if colon else target!r}: must be one of {forms}")
+        raise ParameterError(f"hook {scheme!r}: must be one of {forms}")
     hook: Hook = import_module(f".{kind.module}", __package__).make(target)
     return hook
