@@ -71,9 +71,9 @@ def run(
     from ..engine.network import Network
     from ..model.scaling import scaled
     from ..runtime.interrupts import Interrupted
-    from ..runtime.tally import unbegun_summary
     from ..runtime.ndjson import NdjsonSink, ReaderGoneError
     from ..runtime.opening import open as open_frames
+    from ..runtime.tally import unbegun_summary
     from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
     from .hooks import make_hooks
