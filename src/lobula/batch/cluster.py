@@ -29,6 +29,8 @@ _desks = threading.local()
 class Cluster:
     """A context with a Dask cluster; ``each`` does with it what ``Crew.each`` does with processes.
 
+    When it ends, what was not begun is taken back. A cluster elsewhere finishes, and keeps, what it is at.
+
     The clips and the output folder must be there under the same path for every worker. A worker that dies is replaced,
     its clips go to others; Dask does so three times for each clip.
 
@@ -50,8 +52,9 @@ class Cluster:
             if self._address == LOCAL:
                 logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it tells of workers, we tell
                 cluster = self._dask.LocalCluster(
-                    n_workers=self.workers, threads_per_worker=1, dashboard_address=None, silence_logs=logging.CRITICAL
-                )
+                    n_workers=self.workers, threads_per_worker=1, memory_limit=0, dashboard_address=None,
+                    silence_logs=logging.CRITICAL,
+                )  # fmt: skip
                 self._client = opening.enter_context(self._dask.Client(opening.enter_context(cluster)))
             else:
                 self._client = opening.enter_context(self._connected())
@@ -74,12 +77,8 @@ class Cluster:
         chosen = list(clips)
         futures = self._client.map(partial(_do, self._request), chosen, pure=False)
         of = dict(zip(futures, chosen, strict=True))
-        try:
-            for future in self._dask.as_completed(futures):
-                yield of.pop(future), self._outcome(future)
-        finally:
-            if of:
-                self._client.cancel(list(of))
+        for future in self._dask.as_completed(futures):
+            yield of.pop(future), self._outcome(future)
 
     def _outcome(self, future: Any) -> Outcome:
         if future.status in ("cancelled", "lost"):

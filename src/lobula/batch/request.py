@@ -141,6 +141,7 @@ def _hash(document: Mapping[str, Any]) -> str:
 
 
 def _check_outputs(trace: str | None, annotate: bool) -> None:
+    """See before the work, not at the first clip, that the outputs can be made."""
     if trace is not None and trace not in TRACES:
         raise ParameterError(f"trace {trace!r}: must be one of {', '.join(TRACES)}, or none")
     if trace is not None:
@@ -148,6 +149,6 @@ def _check_outputs(trace: str | None, annotate: bool) -> None:
 
         TraceWriter(f"trace{trace}")
     if annotate:
-        from ..report.mp4 import require_h264
+        from ..report.video import AnnotatedVideo
 
-        require_h264(Path("the annotated videos"))
+        AnnotatedVideo(f"annotated{VIDEO}")

@@ -13,6 +13,7 @@ from ..errors import LobulaError, OutputError
 from ..runtime.interrupts import Interrupted
 from .claim import sweep
 from .clips import Clip
+from .content import files_of
 from .crew import Outcome
 from .manifest import Manifest
 from .places import work_folder
@@ -124,7 +125,8 @@ def _row(clip: Clip, answer: Answer | None, request: Request) -> Row:
 
 
 def _size(clip: Clip) -> int:
+    """Bytes of a clip; of one that cannot be read 0, which is as long as it will take."""
     try:
-        return clip.path.stat().st_size
+        return sum(file.stat().st_size for file in files_of(clip.path))
     except OSError:
         return 0

@@ -12,6 +12,7 @@ from multiprocessing import parent_process
 from multiprocessing.connection import Connection, wait
 
 from ..errors import LobulaError
+from ..runtime.interrupts import Interrupted
 
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 """The processes are what is parallel: threads in each of them would only stand in each other's way."""
@@ -35,7 +36,7 @@ def serve(line: Connection) -> None:
             line.send(desk.do(line.recv()))
     except LobulaError as error:
         line.send(error)
-    except (EOFError, BrokenPipeError):
+    except (EOFError, BrokenPipeError, Interrupted):  # nobody waits for an answer
         return
 
 

@@ -1,0 +1,149 @@
+"""Workers that die, fail or never start; the processes here are real, what they do stands in for work."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+from lobula.batch import crew as module
+from lobula.batch.clips import Clip
+from lobula.batch.crew import MOST_WORKERS, Crew, cores
+from lobula.batch.row import Row
+from lobula.batch.work import Answer
+from lobula.batch.worker import READY, serve
+from lobula.errors import OutputError, ParameterError
+
+from .conftest import write_clip
+
+
+def answer_of(clip):
+    return Answer(Row(file=clip.name, status="ok"), fresh=True)
+
+
+def play(line):
+    """In a worker: do what the name of the clip says. The request is a folder."""
+    folder = line.recv()
+    line.send(READY)
+    while True:
+        clip = line.recv()
+        once = folder / clip.name
+        if clip.name.startswith("kills") or (clip.name.startswith("once") and not once.exists()):
+            once.touch()
+            os.kill(os.getpid(), signal.SIGKILL)
+        if clip.name == "leaves":
+            os._exit(7)
+        if clip.name == "full":
+            line.send(OutputError("the disk is full"))
+            return
+        line.send(answer_of(clip))
+        if clip.name == "last":  # it dies with nothing in hand
+            os._exit(0)
+
+
+def never_ready(line):
+    os._exit(5)
+
+
+def refuses(line):
+    line.send(ParameterError("a worker has other code"))
+
+
+@pytest.fixture
+def crew(monkeypatch, tmp_path):
+    """Make a crew whose workers do ``what``."""
+
+    def make(what, workers=2):
+        monkeypatch.setattr(module, "serve", what)
+        return Crew(tmp_path, workers)
+
+    return make
+
+
+def clips(*names):
+    return [Clip(name, Path(name)) for name in names]
+
+
+def outcomes(crew, *names):
+    with crew:
+        return {clip.name: outcome for clip, outcome in crew.each(clips(*names))}
+
+
+def test_every_clip_once(crew):
+    names = [f"clip{i}" for i in range(7)]
+    assert outcomes(crew(play), *names) == {name: answer_of(Clip(name, Path(name))) for name in names}
+
+
+def test_a_worker_that_is_killed_costs_nothing(crew):
+    found = outcomes(crew(play), "a", "once1", "b", "once2", "c")
+    assert all(isinstance(outcome, Answer) for outcome in found.values())
+    assert len(found) == 5
+
+
+def test_a_clip_that_kills_two_workers_fails_and_the_others_do_not(crew):
+    found = outcomes(crew(play), "a", "kills", "b", "leaves", "c")
+    assert found.pop("kills") == "its worker ended in the middle of it, twice (SIGKILL)"
+    assert found.pop("leaves") == "its worker ended in the middle of it, twice (exit code 7)"
+    assert all(isinstance(outcome, Answer) for outcome in found.values())
+
+
+def test_a_worker_that_ends_between_two_clips_is_replaced(crew):
+    with crew(play, workers=1) as one:
+        for _ in range(2):
+            assert [clip.name for clip, _ in one.each(clips("a", "last"))] == ["a", "last"]
+            time.sleep(0.1)
+
+
+def test_an_error_that_ends_the_batch(crew):
+    with pytest.raises(OutputError, match=r"^the disk is full$"):
+        outcomes(crew(play), "a", "full", "b")
+
+
+@pytest.mark.parametrize(
+    ("what", "error", "message"),
+    [
+        (never_ready, OutputError, r"^a worker cannot start: it ended by itself \(exit code 5\)$"),
+        (refuses, ParameterError, "^a worker has other code$"),
+    ],
+)
+def test_workers_that_cannot_start(crew, what, error, message):
+    with pytest.raises(error, match=message):
+        outcomes(crew(what), "a", "b")
+
+
+def test_there_are_no_more_workers_than_clips(crew):
+    with crew(play, workers=8) as many:
+        list(many.each(clips("a", "b")))
+        assert len(many._hands) == 2
+
+
+def test_none_is_left(crew):
+    with crew(play) as two:
+        next(two.each(clips("a", "b", "c")))
+        processes = [hand._process for hand in two._hands]
+        assert all(process.is_alive() for process in processes)
+        pids = [process.pid for process in processes]
+    for pid in pids:
+        with pytest.raises(ProcessLookupError):
+            os.kill(pid, 0)
+
+
+@pytest.mark.parametrize("workers", [0, -1, MOST_WORKERS + 1])
+def test_workers_out_of_range(workers, tmp_path):
+    with pytest.raises(ParameterError, match=f"^workers = {workers}: must be 1 to {MOST_WORKERS}$"):
+        Crew(tmp_path, workers)
+
+
+def test_cores():
+    assert 1 <= cores() <= (os.cpu_count() or 1)
+
+
+def test_real_work(ask, tmp_path):
+    paths = [write_clip(tmp_path / f"{seed}.mp4", seed, frames=8) for seed in range(3)]
+    with Crew(ask(), 2) as two:
+        found = dict(two.each([Clip(path.name, path) for path in paths]))
+    assert {clip.name: outcome.row.frames for clip, outcome in found.items()} == {"0.mp4": 8, "1.mp4": 8, "2.mp4": 8}
+    assert module.serve is serve
