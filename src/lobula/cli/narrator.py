@@ -29,10 +29,14 @@ class Narrator:
         """Say nothing."""
 
     def event(self, record: Mapping[str, Any]) -> None:
-        """Say when something starts, and of a collision or a hook's trouble when it ended."""
+        """Say when something starts, and of a collision, a lost source or a hook's trouble when it ended."""
         at = f"{record['time_s']:8.3f} s  frame {record['frame']:<6}"
         if record["type"] == "hook":
             self._say(f"{at} hook {record['hook']}: {_hook_text(record)}")
+        elif record["type"] == "source":
+            text = _source_text(record)
+            if text:
+                self._say(f"{at} {text}")
         elif record["type"] == "state":
             if record["phase"] == "start":
                 self._say(f"{at} {str(record['state']).replace('_', ' ')}")
@@ -59,9 +63,26 @@ class Narrator:
         if summary["damaged"]:
             text += f", {summary['damaged']} damaged"
         self._say(f"{text}, {summary['ms_per_frame']:.3f} ms a frame (worst {summary['ms_worst']:.1f})")
+        if "latency_ms" in summary:
+            text = f"{summary['latency_ms']:.1f} ms from capture to decision (worst {summary['latency_ms_worst']:.1f})"
+            if summary["lost"]:
+                text += f"; lost {counted(summary['lost'], 'time')}, away {summary['away_s']:.1f} s"
+            self._say(text)
         for hook in summary.get("hooks", ()):
             if hook["dropped"]:
                 self._say(f"hook {hook['hook']}: {hook['sent']} sent, {hook['dropped']} lost: {hook['problem']}")
+
+
+def _source_text(record: Mapping[str, Any]) -> str:
+    """What became of a source; of many tries the first, second, fourth, eighth and so on are told."""
+    if record["phase"] == "lost":
+        return f"source lost: {record['reason']}"
+    if record["phase"] == "back":
+        return f"source back after {record['away_s']:.1f} s, at try {record['attempt']}"
+    if record["phase"] == "resized":
+        return f"pictures are {record['width']} x {record['height']} px now: the network begins anew"
+    attempt = record["attempt"]
+    return "" if attempt & (attempt - 1) else f"try {attempt} failed: {record['reason']}"
 
 
 def _hook_text(record: Mapping[str, Any]) -> str:

@@ -59,6 +59,14 @@ PixelFormat = Annotated[
 ]
 InputSize = Annotated[str | None, typer.Option(metavar="WxH", help="raw pipe: size of its pictures; or as above")]
 
+Reconnect = Annotated[
+    str | None,
+    typer.Option(metavar="forever|never|S", help="how long to try a live source that went away; forever if left out"),
+]
+Timeout = Annotated[
+    float | None, typer.Option(metavar="S", help="silence after which a live source counts as gone; 10 if left out")
+]
+
 
 def view(size: str, fit: str, roi: str | None, mask: Path | None, flip: str | None, rotate: int) -> dict[str, Any]:
     """Return these options as the keywords of ``lobula.open``.

@@ -34,6 +34,14 @@ def run(
     ] = None,
     annotate: Annotated[Path | None, typer.Option(metavar="FILE.mp4", help="video with traces and decisions")] = None,
     report: Annotated[Path | None, typer.Option(metavar="DIR", help="a folder with a report page")] = None,
+    record: Annotated[Path | None, typer.Option(metavar="FILE.mp4", help="video of the pictures as they are")] = None,
+    keep: Annotated[Path | None, typer.Option(metavar="DIR", help="a clip of each alarm, with its trace")] = None,
+    keep_before: Annotated[
+        float | None, typer.Option(metavar="S", help="a clip's seconds before its alarm; 10 if left out")
+    ] = None,
+    keep_after: Annotated[
+        float | None, typer.Option(metavar="S", help="a clip's seconds after its alarm; 3 if left out")
+    ] = None,
     hook: Annotated[
         list[str] | None,
         typer.Option(metavar="TARGET", help="where events go: tcp:HOST:PORT, mqtt://HOST/TOPIC, ...; may be repeated"),
@@ -62,6 +70,8 @@ def run(
     rate: o.Rate = None,
     pixel_format: o.PixelFormat = None,
     input_size: o.InputSize = None,
+    reconnect: o.Reconnect = None,
+    timeout: o.Timeout = None,
 ) -> int:
     """Watch SOURCE and say when something is going to hit the camera.
 
@@ -77,6 +87,7 @@ def run(
     from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
     from .hooks import make_hooks
+    from .live import live_options, require_live
     from .settings import choose
 
     try:
@@ -86,21 +97,27 @@ def run(
         network = Network(params, engine=engine)
         turns = None if yaw is None else read_yaw(yaw)
         hooks = make_hooks(hook or (), hook_rate)
-        outputs = {"--trace": trace, "--annotate": annotate}
+        outputs = {"--trace": trace, "--annotate": annotate, "--record": record}
         outputs |= {f"hook {number}": one.path for number, one in enumerate(hooks, 1)}
         if report is not None:
             check_folder("--report", report)
             outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
         check_files(outputs, {"source": source, "mask": mask, "yaw file": yaw, "settings file": config}, made=report)
-        files = _file_sinks(trace, annotate, report)
+        files = _file_sinks(trace, annotate, record, report)
+        files += _kept_clips(keep, keep_before, keep_after)
         frames = open_frames(
             source, **view, start_s=start, end_s=end, stride=stride,
             max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
+            **live_options(reconnect, timeout),
         )  # fmt: skip
-        if turns is not None and frames.live:
+        try:
+            require_live(frames, reconnect=reconnect, timeout=timeout)
+            if turns is not None and frames.live:
+                raise ParameterError(f"--yaw {yaw}: {frames.name} is live: must be a recording, whose times are known")
+        except ParameterError:
             frames.close()
-            raise ParameterError(f"--yaw {yaw}: {frames.name} is live: must be a recording, whose times are known")
+            raise
     except (LobulaError, Interrupted) as error:
         if json:
             status = "interrupted" if isinstance(error, Interrupted) else "refused"
@@ -129,6 +146,7 @@ def _watch(
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
+    from ..runtime.service import find_service
     from .narrator import Narrator
 
     # last: its summary knows what became of the files and the hooks
@@ -140,7 +158,9 @@ def _watch(
         here.say(f"lobula: {note}")
     outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
     rate = None if turns is None else turns.at
-    outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, on_frame=here.advance)
+    outcome = run_loop(
+        frames, network, outputs, header, yaw_rate_deg_s=rate, on_frame=here.advance, service=find_service()
+    )
     for note in frames.notes[len(told) :]:
         here.say(f"lobula: {note}")
     if outcome.message:
@@ -157,7 +177,7 @@ def _with_hooks(reader: Sink, hooks: list[Hook], readings_hz: float | None) -> l
     return [office, Telling(reader, office)]
 
 
-def _file_sinks(trace: Path | None, annotate: Path | None, report: Path | None) -> list[Sink]:
+def _file_sinks(trace: Path | None, annotate: Path | None, record: Path | None, report: Path | None) -> list[Sink]:
     """Make the sinks that were asked for; each imports its library here, when it is wanted."""
     sinks: list[Sink] = []
     if trace is not None:
@@ -168,9 +188,27 @@ def _file_sinks(trace: Path | None, annotate: Path | None, report: Path | None) 
         from ..report.video import AnnotatedVideo
 
         sinks.append(AnnotatedVideo(annotate))
+    if record is not None:
+        from ..report.recording import Recording
+
+        sinks.append(Recording(record))
     if report is not None:
         from ..report.page import ReportPage
 
         beside = annotate is not None and annotate.parent.resolve() == report.resolve()
         sinks.append(ReportPage(report, annotate if beside else None))
     return sinks
+
+
+def _kept_clips(folder: Path | None, before_s: float | None, after_s: float | None) -> list[Sink]:
+    from .destinations import check_folder
+
+    spans = {name: value for name, value in (("before", before_s), ("after", after_s)) if value is not None}
+    if folder is None:
+        for name, value in spans.items():
+            raise ParameterError(f"--keep-{name} {value:g}: must have a --keep DIR to go with")
+        return []
+    from ..report.kept import KeptClips
+
+    check_folder("--keep", folder)
+    return [KeptClips(folder, **{f"{name}_s": value for name, value in spans.items()})]

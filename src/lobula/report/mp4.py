@@ -39,12 +39,17 @@ class Mp4File:
         self._first_tick: int | None = None
         self._last_tick, self._gap = 0, round(1 / 30 / TICK)
         self._whole_bytes = 0  # of the part: up to here it holds complete fragments
-        with writing(self.path, FFmpegError):
-            self._container = av.open(str(self.part), "w", format="mp4", options=FRAGMENTED)
-            self._container.metadata["comment"] = self._about
-            self._stream = self._container.add_stream_from_template(template, opaque=True)
-            self._stream.time_base = TICK
-            self._container.start_encoding()
+        try:
+            with writing(self.path, FFmpegError):
+                self._container = av.open(str(self.part), "w", format="mp4", options=FRAGMENTED)
+                self._container.metadata["comment"] = self._about
+                self._stream = self._container.add_stream_from_template(template, opaque=True)
+                self._stream.time_base = TICK
+                self._container.start_encoding()
+        except OutputError:
+            with suppress(OSError):
+                self.part.unlink()  # there is nothing in it
+            raise
 
     def add(self, coded: Coded) -> None:
         """Append a packet; it is on its way to the disk within half a second of video."""

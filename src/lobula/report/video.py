@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import av
 import numpy as np
 from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
@@ -18,6 +17,7 @@ from .canvas import Canvas, border, label, rgb, text
 from .h264 import require_h264
 from .mp4 import Mp4Writer
 from .palette import DARK, STATE_LABELS, thresholds
+from .placing import fitted, place
 from .strip import STRIP_HEIGHT, Strip
 from .trace import facts
 
@@ -84,35 +84,21 @@ class AnnotatedVideo:
             video.finish()
 
     def _start(self, image: NDArray[np.uint8] | None) -> None:
-        height, _ = _fit(image.shape[:2] if image is not None else _NO_PICTURE)
+        shape = image.shape if image is not None else _NO_PICTURE
+        height, _ = fitted(shape, WIDTH_PX, MAX_PICTURE_HEIGHT_PX)
         self._canvas: Canvas = np.zeros((height + STRIP_HEIGHT, WIDTH_PX, 3), np.uint8)
         self._strip = Strip(WIDTH_PX, thresholds(self._header))
         fps = float(self._header.get("fps") or 30.0)
         self._video = Mp4Writer(self.path, WIDTH_PX, height + STRIP_HEIGHT, fps, facts(self._header))
 
 
-def _fit(shape: tuple[int, ...]) -> tuple[int, int]:
-    """Even height and width of a picture scaled to fill WIDTH_PX, or MAX_PICTURE_HEIGHT_PX if it is tall."""
-    height, width = shape[0], shape[1]
-    scale = min(WIDTH_PX / width, MAX_PICTURE_HEIGHT_PX / height)
-    return max(2 * round(height * scale / 2), 2), max(2 * round(width * scale / 2), 2)
-
-
 def _place(view: Canvas, image: NDArray[np.uint8] | None, scaler: VideoReformatter) -> None:
-    """Put the picture, scaled, in the middle of ``view``; without one, say so."""
+    """Put the picture in the middle of ``view``; without one, say so."""
     if image is None:
         view[...] = _PANEL
         text(view, "no picture", view.shape[0] // 2, view.shape[1] // 2, rgb(DARK.dim), _PANEL, align="middle")
         return
-    height, width = _fit(image.shape[:2])
-    height = min(height, view.shape[0])
-    if (height, width) != view.shape[:2]:
-        view[...] = _PANEL
-    way = "AREA" if height < image.shape[0] else "FAST_BILINEAR"
-    frame = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(image), format="rgb24")
-    top, left = (view.shape[0] - height) // 2, (view.shape[1] - width) // 2
-    scaled = scaler.reformat(frame, width, height, interpolation=way)
-    view[top : top + height, left : left + width] = scaled.to_ndarray()
+    place(view, image, scaler, _PANEL)
 
 
 def mark_decision(view: Canvas, reading: Reading) -> None:

@@ -11,7 +11,7 @@ from ..errors import LobulaError
 from ..types import Reading
 from .events import Record
 from .ndjson import ReaderGoneError
-from .sinks import Picture, Sink
+from .sinks import OutputLapseError, Picture, Sink
 
 _DISK_FAILED = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}
 
@@ -77,7 +77,8 @@ class Outputs:
             try:
                 call(sink)
             except LobulaError as error:
-                self._alive.remove(sink)
+                if not isinstance(error, OutputLapseError):
+                    self._alive.remove(sink)
                 self._note(error)
 
     def _note(self, error: LobulaError) -> None:

@@ -8,10 +8,15 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from ..errors import OutputError
 from ..types import Reading
 
 Picture = Callable[[], NDArray[np.uint8]]
 """Gives the (h, w, 3) RGB picture a frame was made from; decoded when asked for, so ask only if it is drawn."""
+
+
+class OutputLapseError(OutputError):
+    """Something was not written, but the output goes on with what comes next and is to be called again."""
 
 
 class Sink(Protocol):
@@ -23,7 +28,8 @@ class Sink(Protocol):
 
     Raises
     ------
-    OutputError : from any of the calls, when the file cannot be written
+    OutputError : from any of the calls, when the file cannot be written; but for ``OutputLapseError`` the sink is only
+        closed after that
     """
 
     def open(self, header: Mapping[str, Any]) -> None:

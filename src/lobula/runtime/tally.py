@@ -115,7 +115,10 @@ class Tally:
         """What is told of live sources only."""
         if not self._source.live:
             return {}
-        told: dict[str, Any] = {"lost": self._lost, "away_s": round(self._away_s + self._away_now_s(time.monotonic()), 3)}
+        told: dict[str, Any] = {
+            "lost": self._lost,
+            "away_s": round(self._away_s + self._away_now_s(time.monotonic()), 3),
+        }
         if self._latencies:
             told["latency_ms"] = round(1000 * self._latencies.median_s(), 2)
             told["latency_ms_worst"] = round(1000 * self._latencies.worst_s, 2)

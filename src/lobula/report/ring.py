@@ -1,0 +1,59 @@
+"""The last seconds of a run, encoded: what a clip of an alarm begins with."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from ..types import Reading
+from .h264 import Coded
+
+MOST_BYTES = 64 * 2**20
+"""The ring holds no more than this, however much changes in the picture. 10 s of pure noise, 640 x 480 at 30 Hz, take
+26 MB; of a street, 2 or 3."""
+
+
+class Slot(NamedTuple):
+    """One frame: its number in the source, what the network said of it, its picture."""
+
+    number: int
+    reading: Reading
+    coded: Coded
+
+
+class Ring:
+    """Keeps the frames of the last ``before_s`` and a little more: it begins with a key frame, and they come seldom."""
+
+    def __init__(self, before_s: float, most_bytes: int = MOST_BYTES) -> None:
+        self._before_s = before_s
+        self._most_bytes = most_bytes
+        self._groups: deque[list[Slot]] = deque()  # each begins with a key frame
+        self._bytes = 0
+        self.cut_short = False
+        """True when what is kept is less than was asked for, because it would have been too large."""
+
+    def __iter__(self) -> Iterator[Slot]:
+        for group in self._groups:
+            yield from group
+
+    @property
+    def bytes(self) -> int:
+        """What the encoded pictures take."""
+        return self._bytes
+
+    def add(self, slot: Slot) -> None:
+        """Take in a frame and let go of what is older than asked for."""
+        if slot.coded.key or not self._groups:
+            self._groups.append([])
+        self._groups[-1].append(slot)
+        self._bytes += len(slot.coded.data)
+        while len(self._groups) > 1 and slot.reading.time_s - self._groups[1][0].reading.time_s >= self._before_s:
+            self._drop()
+            self.cut_short = False
+        while len(self._groups) > 1 and self._bytes > self._most_bytes:
+            self._drop()
+            self.cut_short = True
+
+    def _drop(self) -> None:
+        self._bytes -= sum(len(slot.coded.data) for slot in self._groups.popleft())
