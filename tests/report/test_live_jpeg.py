@@ -51,7 +51,15 @@ def test_a_wide_one_is_made_small_and_keeps_its_shape(how):
     assert greys[-1] > 200
 
 
-def test_one_writer_takes_one_picture_after_the_other_of_any_size_and_kind():
+def test_one_writer_takes_one_picture_after_the_other(tmp_path):
+    clip = write_clip(tmp_path / "clip.mp4", [np.full((64, 96), grey, np.uint8) for grey in (60, 120, 180)])
+    write = LiveJpeg()
+    with lobula.open(clip) as frames:
+        means = [read(write(frames.decoded())).mean() for _ in frames]
+    assert np.diff(means) == pytest.approx([70, 70], abs=4)  # limited range: 60 grey levels are 70 of luma
+
+
+def test_its_pictures_may_differ_in_size_and_kind():
     write = LiveJpeg()
     for images in (np.full((2, 64, 96), 50.4, np.float32), np.full((2, 64, 96), 200, np.uint8), quarters(30, 50)[None]):
         with lobula.open(images) as frames:

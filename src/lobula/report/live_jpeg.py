@@ -16,6 +16,8 @@ from ..frames.source import Decoded
 QUALITY = "5"
 """The quantiser of MJPEG, 2 (best) to 31."""
 
+_TICK = Fraction(1, 1000)
+
 
 class LiveJpeg:
     """Makes JPEGs at most ``width`` px wide, upright. For one thread; most of the work lets other threads run."""
@@ -24,6 +26,7 @@ class LiveJpeg:
         self._width = width
         self._scaler = VideoReformatter()
         self._encoder: Any = None
+        self._count = 0
 
     def __call__(self, decoded: Decoded) -> bytes:
         """Return the picture as a JPEG."""
@@ -32,7 +35,8 @@ class LiveJpeg:
             frame = _upright(frame, decoded.layout)
         if self._encoder is None or (self._encoder.width, self._encoder.height) != (frame.width, frame.height):
             self._encoder = _encoder(frame.width, frame.height)
-        frame.pts = None
+        self._count += 1
+        frame.pts, frame.time_base = self._count, _TICK  # the encoder refuses stamps that do not increase
         return b"".join(bytes(packet) for packet in self._encoder.encode(frame))
 
     def _small(self, decoded: Decoded) -> Any:
@@ -52,7 +56,7 @@ class LiveJpeg:
 def _encoder(width: int, height: int) -> Any:
     encoder = av.CodecContext.create("mjpeg", "w")
     encoder.width, encoder.height, encoder.pix_fmt = width, height, "yuvj420p"
-    encoder.time_base = Fraction(1, 1000)
+    encoder.time_base = _TICK
     encoder.thread_count = 1  # several would hold pictures back
     encoder.options = {"qmin": QUALITY, "qmax": QUALITY}
     return encoder
