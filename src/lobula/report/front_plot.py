@@ -57,7 +57,7 @@ def plot_front(
         for axes, (name, series) in zip(row, panels.items(), strict=True):
             plain(axes, "y")
             axes.grid(visible=True, axis="x", color=LIGHT.line, linewidth=0.6)
-            for one in series:
+            for one in filter(lambda one: one.marks, series):  # the layout cannot measure an empty one
                 _draw(axes, one, x, y)
             _label(axes, series, x, y)
             axes.set_title(name if place == 0 else "", fontsize=10.5, color=LIGHT.text)

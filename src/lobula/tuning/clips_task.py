@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..errors import ParameterError
 from ..evaluate.groups import folds
 from ..evaluate.labels import Label, read_labels
 from ..runtime.opening import open as open_frames
@@ -67,6 +68,8 @@ def clips_task(
     where = f"labels {labels_path}"
     there = read_labels(labels_path)
     labels = searched(there)
+    if not labels:
+        raise ParameterError(f"{where}: no clip to search on: all of them are left out")
     splits = clip_splits(labels, where) if hold_out else {FINAL: Split(tuple(label.file for label in labels))}
     films = {}
     for number, label in enumerate(labels):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import fcntl
 import importlib
+import json
 import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
@@ -83,22 +84,29 @@ def opened(folder: Path) -> Iterator[Journal]:
                 fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except BlockingIOError as error:
                 raise ParameterError(f"{folder}: another search is at work there: must be another folder") from error
-            _mend(file)
             Path(f"{path}.lock").unlink(missing_ok=True)
             journal = optuna.storages.journal
             try:
+                _mend(file)
                 storage = optuna.storages.JournalStorage(journal.JournalFileBackend(str(path)))
-            except (ValueError, KeyError) as error:  # a line that is no JSON is a ValueError
+            except (ValueError, KeyError, TypeError) as error:  # a line that is no JSON is a ValueError
                 raise ParameterError(f"{path}: is no journal of a search: must be another folder") from error
         yield Journal(path, storage)
 
 
 def _mend(file: Any) -> None:
+    """Take off a torn last line.
+
+    Raises
+    ------
+    ValueError : the last whole line is no JSON: this is something else
+    """
     file.seek(0)
-    whole = file.read()
-    end = whole.rfind(b"\n") + 1
-    if end < len(whole):
-        file.truncate(end)
+    *whole, torn = bytes(file.read()).split(b"\n")
+    if whole:
+        json.loads(whole[-1])
+    if torn:
+        file.truncate(file.tell() - len(torn))
 
 
 class Search:

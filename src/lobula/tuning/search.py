@@ -63,17 +63,17 @@ def _measurements(plan: Plan, searches: Sequence[Search], crew: Crew) -> Iterato
             if deadline_s is None or time.monotonic() < deadline_s or trial.number == 0:  # each search has a result
                 yield job
 
-    while deadline_s is None or time.monotonic() < deadline_s:
+    while True:
         waiting = [(search, trial) for search in searches for trial in search.next_round(plan.budget.most)]
         if not waiting:
             return
         waiting.sort(key=lambda pair: pair[1].number)
-        yield from crew.measure(
-            in_time([
-                Job((search, trial), plan.settings(trial), plan.task.splits[search.name].train)
-                for search, trial in waiting
-            ])
-        )  # fmt: skip
+        jobs = [
+            Job((search, trial), plan.settings(trial), plan.task.splits[search.name].train) for search, trial in waiting
+        ]
+        yield from crew.measure(in_time(jobs))
+        if deadline_s is not None and time.monotonic() >= deadline_s:
+            return
 
 
 def _tell(done: Measured) -> None:
