@@ -43,21 +43,22 @@ class NdjsonFile(Hook):
         self._begun = False
 
     def check(self) -> None:
-        """Make the file, or empty it.
+        """Make the file, or empty it; it stays open, for whoever reads a named pipe takes a closing for the end.
 
         Raises
         ------
         OutputError : nothing can be written there
         """
         try:
-            os.close(os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NONBLOCK, 0o666))
+            self._open(os.O_TRUNC)
         except OSError as error:
             if error.errno != errno.ENXIO:  # a named pipe whose reader is not there yet
                 raise OutputError(f"cannot write {self.path}: {error.strerror}") from error
 
     def connect(self, header: Record) -> None:
-        """Open the file at its end; the first time, write the header."""
-        self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_NONBLOCK, 0o666)
+        """Open the file at its end, if it is not open; the first time, write the header."""
+        if self._file < 0:
+            self._open()
         if not self._begun:
             self._write(line(header_told(header)))
             self._begun = True
@@ -71,6 +72,9 @@ class NdjsonFile(Hook):
         if self._file >= 0:
             os.close(self._file)
             self._file = -1
+
+    def _open(self, how: int = 0) -> None:
+        self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_NONBLOCK | how, 0o666)
 
     def _write(self, data: bytes) -> None:
         """Write a whole line, or take back what was written of it."""
