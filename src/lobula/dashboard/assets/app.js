@@ -1,0 +1,219 @@
+// The page: hands what the program sends to the parts that show it.
+
+import { makeEvents } from "./events.js";
+import { forgetInk } from "./ink.js";
+import { makePicture } from "./picture.js";
+import { Record } from "./record.js";
+import { makeSettings } from "./settings.js";
+import { connect } from "./stream.js";
+import { makeTimeline } from "./timeline.js";
+import { makeTraces } from "./traces.js";
+
+const $ = (id) => document.getElementById(id);
+const PAST = 0.75; // of the window lies before the moment shown, in a recording
+
+let run = null, about = null, record = null, traces, picture = makePicture(), events, settings, timeline;
+let fitted = false, status = {}, thresholds = {}, collisions = 0, drawn = false, asked = null, told = "";
+
+if (location.search) history.replaceState(null, "", "/"); // the token has become a cookie: nobody need see it
+
+const stream = connect({
+  message(head, rows, jpeg, map) {
+    if (head.hello) greet(head.hello);
+    if (rows) {
+      record.put(rows);
+      timeline?.grown();
+    }
+    if (head.settings) {
+      thresholds = head.settings.thresholds;
+      settings.show(head.settings);
+    }
+    if (head.events) {
+      events.show(head.events);
+      collisions = new Set(head.events.filter(({ type }) => type === "collision").map(({ id }) => id)).size;
+    }
+    if (head.scene) {
+      picture.show(head.scene, jpeg, map);
+      explain(head.scene.why);
+      if (timeline) asked = null;
+    }
+    status = head.status;
+    if (timeline && !fitted && status.complete) fit();
+    changed();
+    if (timeline && !asked) ask();
+  },
+  state(connected, reason) {
+    document.body.classList.toggle("lost", !connected);
+    if (connected) return tellProblems();
+    const ended = status.ended ? `The run has ended: ${[status.ended.status.replaceAll("_", " "), ...status.ended.problems].join(". ")}. ` : "";
+    notice(`${ended}${reason || "No connection"}. Trying again.`);
+  },
+});
+
+/** Build the page for what is shown; anew where another program answers than before. */
+function greet(hello) {
+  if (hello.run === run) return;
+  if (run !== null) return location.reload();
+  run = hello.run;
+  about = hello;
+  const live = about.mode === "live", trace = about.mode === "trace";
+  record = new Record(live);
+  thresholds = about.thresholds;
+  $("name").textContent = about.name;
+  $("mode").textContent = { live: "live", recording: "recording", trace: "saved trace" }[about.mode];
+  document.title = `${about.name} · lobula`;
+  $("facts").textContent = facts(about.facts, about.lobula);
+  timeline = live ? null : makeTimeline(record, () => { changed(); ask(); });
+  events = makeEvents(about.states, about.neurons, timeline && ((at) => timeline.seek(at)));
+  events.show([]);
+  settings = trace ? null : makeSettings(about.settings);
+  traces = makeTraces($("traces"), about.neurons, settings && drag);
+  if (trace) {
+    picture.say("A saved trace holds no pictures. Serve the clip itself to see them.");
+    document.querySelector("main").classList.add("plain");
+    $("layers").hidden = true;
+  } else layers();
+  timeline?.whenComplete(() => status.complete);
+  fitted = false;
+  if (timeline && !matchMedia("(prefers-reduced-motion: reduce)").matches) timeline.play();
+}
+
+function layers() {
+  for (const [group, names] of Object.entries(about.maps)) {
+    const options = document.createElement("optgroup");
+    options.label = group;
+    options.append(...names.map((name) => new Option(name.replace(/^lgmd[12]_/, "").replaceAll("_", " "), name)));
+    $("layer").append(options);
+  }
+  $("layer").onchange = () => {
+    stream.send({ map: $("layer").value || null });
+    $("strength-label").hidden = !$("layer").value;
+  };
+  $("strength-label").hidden = true;
+  $("strength").oninput = () => picture.blend(Number($("strength").value));
+}
+
+/** A window that suits the length of a recording. */
+function fit() {
+  fitted = true;
+  const spans = [...$("span").options].map((option) => Number(option.value));
+  $("span").value = spans.findLast((seconds) => seconds <= record.last - record.first) ?? spans[0];
+}
+
+/** Ask for the scene of the row shown, one at a time: what comes next is always the newest wish. */
+function ask() {
+  if (!timeline || about.mode === "trace" || asked !== null || !record.length) return;
+  if (timeline.row === ask.last) return;
+  asked = ask.last = timeline.row;
+  stream.send({ show: timeline.row });
+}
+
+/** A threshold dragged in its trace. Both LPTCs share one. */
+function drag(neuron, level) {
+  const path = neuron.startsWith("lptc") ? "lptc.spiking.threshold" : `${neuron}.spiking.threshold`;
+  settings.change({ [path]: Math.min(0.99, Math.max(0.01, Number(Math.abs(level).toFixed(3)))) });
+}
+
+function changed() {
+  if (drawn) return;
+  drawn = true;
+  requestAnimationFrame(() => {
+    drawn = false;
+    if (record) draw();
+  });
+}
+
+function draw() {
+  const span = Number($("span").value), now = timeline ? timeline.time : record.last;
+  traces.draw(record, now, span, timeline ? PAST : 1, thresholds);
+  timeline?.draw();
+  const place = timeline ? timeline.row : record.length - 1;
+  const row = record.length ? { collision: !!record.collision[place], state: about.states[record.state[place]].name } : null;
+  if (!row) return;
+  const state = timeline ? row.state : status.state ?? row.state, collision = row.collision && state !== "stale";
+  const words = about.states.find(({ name }) => name === state).label;
+  picture.mark(collision, state, words);
+  pill(collision ? "collision" : state, collision ? "COLLISION" : words);
+  figures();
+}
+
+function pill(kind, words) {
+  if (told === kind) return;
+  told = kind;
+  $("state").className = `pill ${kind}`;
+  $("state").textContent = words;
+  document.title = `${kind === "collision" ? "COLLISION · " : ""}${about.name} · lobula`;
+}
+
+function figures() {
+  const shown = [];
+  const rate = ratePerSecond();
+  if (rate) shown.push(["frames / s", rate.toFixed(rate < 10 ? 1 : 0)]);
+  if (timeline) {
+    shown.push(["frames", record.length], ["collisions", collisions]);
+    if (!status.complete) shown.push(["analysed", status.total ? `${Math.min(100, Math.round((100 * record.length) / status.total))} %` : "…"]);
+  } else {
+    if (status.latency) shown.push(["latency, median", ms(status.latency.median)], ["latency, worst", ms(status.latency.worst)]);
+    if (status.work) shown.push(["network, median", ms(status.work.median)]);
+    shown.push(["dropped", status.dropped ?? 0, (status.dropped ?? 0) > 0]);
+    if (status.damaged) shown.push(["damaged", status.damaged, true]);
+  }
+  shown.push(["viewers", status.viewers ?? 1]);
+  const text = JSON.stringify(shown);
+  if (figures.last === text) return;
+  figures.last = text;
+  $("figures").replaceChildren(...shown.map(([name, value, bad]) => {
+    const box = document.createElement("div");
+    box.className = bad ? "bad" : "";
+    box.append(Object.assign(document.createElement("dd"), { textContent: value }), Object.assign(document.createElement("dt"), { textContent: name }));
+    return box;
+  }));
+}
+
+const ms = (value) => `${value < 10 ? value.toFixed(2) : value.toFixed(0)} ms`;
+
+/** Of the last two seconds, live; of all, in a recording. */
+function ratePerSecond() {
+  const from = timeline ? 0 : Math.max(0, record.at(record.last - 2)), span = record.last - record.time[from];
+  return span > 0 ? (record.length - 1 - from) / span : 0;
+}
+
+function explain(why) {
+  $("why").hidden = !why.length;
+  if (!why.length) return;
+  const unmet = why.find((one) => !one.holds);
+  $("verdict").textContent = unmet ? `No collision: ${unmet.because}` : "Collision: every condition holds";
+  $("verdict").className = unmet ? "" : "collision";
+  $("conditions").replaceChildren(...why.map((one) => Object.assign(document.createElement("li"), {
+    className: one.holds ? "" : "no", textContent: one.because,
+  })));
+}
+
+function notice(words) {
+  $("notice").hidden = !words;
+  if ($("notice").textContent !== words) $("notice").textContent = words;
+}
+
+function tellProblems() {
+  notice(status.problem ?? "");
+}
+
+function facts(known, version) {
+  const words = { preset: "preset", neurons: "neurons", engine: "engine", settings_hash: "settings" };
+  const parts = Object.entries(words).filter(([key]) => known[key]).map(([key, word]) => `${word} ${known[key]}`);
+  if (known.width) parts.push(`${known.width} × ${known.height} px`);
+  return [known.source, ...parts, `lobula ${known.version ?? version}`].filter(Boolean).join(" · ");
+}
+
+$("span").onchange = changed;
+addEventListener("resize", changed);
+matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { forgetInk(); changed(); });
+$("theme").onclick = () => {
+  const dark = getComputedStyle(document.documentElement).colorScheme === "dark";
+  document.documentElement.dataset.theme = dark ? "light" : "dark";
+  localStorage.setItem("lobula-theme", document.documentElement.dataset.theme);
+  forgetInk();
+  changed();
+};
+const theme = localStorage.getItem("lobula-theme");
+if (theme) document.documentElement.dataset.theme = theme;
