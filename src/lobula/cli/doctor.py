@@ -22,6 +22,7 @@ EXTRAS = {
     "dask": (("distributed",), "a cluster for lobula batch"),
     "mqtt": (("paho",), "--hook mqtt://, records to a broker"),
     "mavlink": (("pymavlink", "serial"), "--hook mavlink:, alarms for an autopilot"),
+    "mcap": (("mcap",), "--hook mcap:, recordings for Foxglove"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

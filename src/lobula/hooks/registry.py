@@ -27,6 +27,7 @@ KINDS: dict[str, HookKind] = {
     "mqtt": HookKind("mqtt://HOST/TOPIC", "publishes the records to a broker", "mqtt"),
     "mqtts": HookKind("mqtts://HOST/TOPIC", "publishes the records to a broker, encrypted", "mqtt"),
     "mavlink": HookKind("mavlink:LINK", "COLLISION and potentials for an autopilot or ground station", "mavlink"),
+    "mcap": HookKind("mcap:FILE.mcap", "a recording for Foxglove, pictures included", "mcap"),
 }
 """Scheme -> kind. A module is imported only when a target asks for it."""
 

@@ -1,0 +1,96 @@
+"""What a recording for Foxglove holds: its channels, their schemas, and how a record of a run becomes a message.
+
+Source: foxglove.dev, message schemas CompressedImage and Log, JSON encoding.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from ..types import TRACE_DTYPE
+
+FRAME_ID = "camera"
+_NAME = "lobula"
+
+INFO, WARNING = 2, 3
+"""Levels of a foxglove.Log."""
+
+_TIME = {
+    "type": "object",
+    "title": "time",
+    "properties": {
+        "sec": {"type": "integer", "minimum": 0},
+        "nsec": {"type": "integer", "minimum": 0, "maximum": 999_999_999},
+    },
+}
+_TEXT = {"type": "string"}
+_JSON_TYPES = {"i": "integer", "f": "number", "b": "boolean", "U": "string"}
+
+
+class Channel(NamedTuple):
+    """A topic and what its messages look like."""
+
+    topic: str
+    schema_name: str
+    properties: Mapping[str, Any]
+
+    @property
+    def schema(self) -> bytes:
+        """Its JSON schema."""
+        return json.dumps({"title": self.schema_name, "type": "object", "properties": self.properties}).encode()
+
+
+READINGS = Channel(
+    "/lobula/reading",
+    "lobula.Reading",
+    {name: {"type": _JSON_TYPES[TRACE_DTYPE[name].kind]} for name in TRACE_DTYPE.names or ()},
+)
+EVENTS = Channel(
+    "/lobula/event",
+    "lobula.Event",
+    {"type": _TEXT, "phase": _TEXT, "frame": {"type": "integer"}, "time_s": {"type": "number"}},
+)
+LOG = Channel(
+    "/lobula/log",
+    "foxglove.Log",
+    {"timestamp": _TIME, "level": {"type": "integer"}, "message": _TEXT, "name": _TEXT, "file": _TEXT,
+     "line": {"type": "integer", "minimum": 0}},
+)  # fmt: skip
+PICTURES = Channel(
+    "/lobula/picture",
+    "foxglove.CompressedImage",
+    {"timestamp": _TIME, "frame_id": _TEXT, "data": {"type": "string", "contentEncoding": "base64"}, "format": _TEXT},
+)
+CHANNELS = (READINGS, EVENTS, LOG, PICTURES)
+
+
+def log_message(record: Mapping[str, Any], at_ns: int) -> bytes:
+    """Return an event or the summary as a foxglove.Log; collisions that start and lost sources are warnings."""
+    warns = (record["type"], record.get("phase")) in (("collision", "start"), ("source", "lost"))
+    said = [str(record[key]) for key in ("type", "id", "state", "phase", "status", "reason") if record.get(key)]
+    return _message({
+        "timestamp": _time(at_ns), "level": WARNING if warns else INFO, "message": " ".join(said),
+        "name": _NAME, "file": "", "line": 0,
+    })  # fmt: skip
+
+
+def picture_message(jpeg: bytes, at_ns: int) -> bytes:
+    """Return a JPEG as a foxglove.CompressedImage."""
+    data = base64.b64encode(jpeg).decode()
+    return _message({"timestamp": _time(at_ns), "frame_id": FRAME_ID, "data": data, "format": "jpeg"})
+
+
+def record_message(record: Mapping[str, Any]) -> bytes:
+    """Return a record as it is."""
+    return _message(record)
+
+
+def _message(fields: Mapping[str, Any]) -> bytes:
+    return json.dumps(fields, separators=(",", ":"), allow_nan=False).encode()
+
+
+def _time(at_ns: int) -> dict[str, int]:
+    return {"sec": at_ns // 1_000_000_000, "nsec": at_ns % 1_000_000_000}
