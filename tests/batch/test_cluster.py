@@ -18,7 +18,7 @@ from lobula.errors import LobulaError, MissingExtraError, ParameterError
 
 from .conftest import write_clip
 
-CLIPS = 10
+CLIPS = 20
 
 
 def test_without_dask(ask, monkeypatch):
@@ -46,6 +46,7 @@ class TestWithDask:
         def kill_one(row):
             if killed or row.status != "ok":
                 return
+            assert len(Lines(out / "manifest.ndjson").new()) < CLIPS  # there is work left
             workers = cluster._client.run(os.getpid)
             killed.append(next(iter(workers.values())))
             os.kill(killed[0], signal.SIGKILL)

@@ -92,7 +92,7 @@ def test_new_clips_are_taken_up(folder, ask, out):
 
 
 class Stopped(Alone):
-    """Hands that are stopped after two clips."""
+    """Hands that are stopped when three clips are done, two of them told."""
 
     stop: BaseException = Interrupted(signal.SIGTERM)
 
@@ -108,12 +108,14 @@ class Stopped(Alone):
 )
 def test_what_was_done_before_it_was_stopped_is_kept(folder, ask, out, monkeypatch, stop, status):
     monkeypatch.setattr(Stopped, "stop", stop)
+    (folder / "copy.mp4").unlink()
     ended = batch(folder, ask, out, hands=Stopped)
     assert ended.stop is stop
-    assert (summary(out)["status"], summary(out)["unfinished"]) == (status, 4)
-    assert [row["status"] for row in table(out)].count("unfinished") == 4
+    assert (summary(out)["status"], summary(out)["unfinished"]) == (status, 2)
+    assert [row["status"] for row in table(out)].count("unfinished") == 2
+    assert (ended.summary.done, len(manifest(out))) == (3, 3)
     again = batch(folder, ask, out)
-    assert (again.summary.ok, again.summary.failed, again.summary.unfinished) == (4, 2, 0)
+    assert (again.summary.ok, again.summary.failed, again.summary.unfinished) == (3, 2, 0)
     contents = [row["content"] for row in manifest(out) if row["status"] == "ok"]
     assert len(contents) == len(set(contents)) == 3
 

@@ -15,10 +15,11 @@ from .claim import sweep
 from .clips import Clip
 from .content import files_of
 from .crew import Outcome
+from .lines import Lines
 from .manifest import Manifest
-from .places import work_folder
+from .places import manifest_path, work_folder
 from .request import Request, write_settings
-from .row import Row, now
+from .row import Row, now, row_of
 from .summary import Summary, summarise, write_table
 from .work import Answer
 
@@ -70,18 +71,22 @@ def run_batch(
     begun_s = time.monotonic()
     write_settings(request)
     sweep(work_folder(request.out))
-    found: dict[Clip, Answer] = {}
+    log = Lines(manifest_path(request.out))
+    log.new()
+    found, fresh = dict[Clip, Row](), list[Row]()
     stop: Interrupted | LobulaError | None = None
     try:
         with hands:
-            for clip, answer in _answers(clips, request, hands):
-                found[clip] = answer
-                if answer.row is not None:
-                    tell(answer.row)
+            for clip, row, is_fresh in _done(clips, request, hands):
+                found[clip] = row
+                fresh += [row] if is_fresh else []
+                tell(row)
     except (Interrupted, LobulaError) as error:
         stop = error
-    rows = tuple(_row(clip, found.get(clip), request) for clip in clips)
-    fresh = [answer.row for answer in found.values() if answer.fresh and answer.row is not None]
+        late = _on_their_way([clip for clip in clips if clip not in found], log, request)
+        found |= late
+        fresh += late.values()
+    rows = tuple(found.get(clip) or _unfinished(clip, request) for clip in clips)
     seconds = time.monotonic() - begun_s
     summary = summarise(rows, fresh, request, workers=hands.workers, seconds=seconds, stop=stop)
     try:
@@ -92,8 +97,8 @@ def run_batch(
     return Ended(rows, summary, stop)
 
 
-def _answers(clips: Sequence[Clip], request: Request, hands: Hands) -> Iterator[tuple[Clip, Answer]]:
-    """Yield each clip with its answer; those that somebody else is at are asked about again until they are done."""
+def _done(clips: Sequence[Clip], request: Request, hands: Hands) -> Iterator[tuple[Clip, Row, bool]]:
+    """Yield each clip, its row and whether it was done just now; what somebody else is at is asked about again."""
     left = sorted(clips, key=_size, reverse=True)  # so that all workers end together
     while left:
         busy = []
@@ -102,8 +107,8 @@ def _answers(clips: Sequence[Clip], request: Request, hands: Hands) -> Iterator[
             if answer.row is None:
                 busy.append(clip)
             else:
-                yield clip, answer
-        if busy and len(busy) == len(left):
+                yield clip, answer.row, answer.fresh
+        if len(busy) == len(left):
             time.sleep(_AGAIN_S)
         left = busy
 
@@ -118,9 +123,14 @@ def _killed(clip: Clip, problem: str, request: Request) -> Answer:
     return Answer(row, fresh=True)
 
 
-def _row(clip: Clip, answer: Answer | None, request: Request) -> Row:
-    if answer is not None and answer.row is not None:
-        return answer.row
+def _on_their_way(clips: Iterable[Clip], log: Lines, request: Request) -> dict[Clip, Row]:
+    """Return those of ``clips`` that were finished when the batch was stopped, but whose answer had not come."""
+    rows = {row.file: row for row in map(row_of, log.new()) if row is not None}
+    asked = (request.settings, request.code)
+    return {clip: rows[clip.name] for clip in clips if clip.name in rows and rows[clip.name].key[1:] == asked}
+
+
+def _unfinished(clip: Clip, request: Request) -> Row:
     return Row(file=clip.name, status="unfinished", settings=request.settings, code=request.code)
 
 
