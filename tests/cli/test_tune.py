@@ -7,6 +7,7 @@ import shutil
 import signal
 import sys
 import time
+from functools import cache
 
 import pytest
 
@@ -28,10 +29,16 @@ def _undrawn(monkeypatch):
     monkeypatch.setattr("lobula.tuning.results.save_figure", lambda drawing, path: path.touch())
 
 
+@pytest.fixture(scope="module")
+def cases():
+    """Four movies of the battery, two of them approaches; each is drawn once."""
+    chosen = [case for case in battery() if case.name in NAMES]
+    return [case._replace(movie=cache(case.movie)) for case in chosen]
+
+
 @pytest.fixture
-def tiny(monkeypatch):
-    """Make the battery four movies, two of them approaches, and the disk quick."""
-    cases = [case for case in battery() if case.name in NAMES]
+def tiny(monkeypatch, cases):
+    """Make the battery four movies, and the disk quick."""
     monkeypatch.setattr("lobula.tuning.battery_task.battery_cases", lambda: iter(cases))
     monkeypatch.setattr("os.fsync", lambda file: None)
 
@@ -253,16 +260,18 @@ def test_without_its_extra_it_says_what_to_install(call, monkeypatch, module, ex
 
 
 @pytest.mark.parametrize(
-    ("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGKILL, -9)], ids=lambda x: str(x)
+    ("number", "code", "workers"), [(signal.SIGTERM, 143, 2), (signal.SIGINT, 130, 1), (signal.SIGKILL, -9, 2)]
 )
-def test_a_signal_loses_what_was_under_way_and_the_same_command_goes_on(call, spawn, labelled, tmp_path, number, code):
-    arguments = [*labelled()[:-1], "2", "--vary", "lgmd?.sigmoid_grey=x2"]
-    process = spawn(*arguments, "--trials", "5000")
+def test_a_signal_loses_what_was_under_way_and_the_same_command_goes_on(
+    call, spawn, labelled, tmp_path, number, code, workers
+):
+    arguments = [*labelled()[:-2], "--vary", "lgmd?.sigmoid_grey=x2", "--workers", "1"]
+    process = spawn(*arguments[:-1], workers, "--trials", "5000")
     journal, deadline_s = tmp_path / "t" / "journal.log", time.monotonic() + 60
     while not (journal.exists() and journal.read_text().count('"trial ') >= 5):
         assert process.poll() is None, process.stderr.read()
         assert time.monotonic() < deadline_s
-        time.sleep(0.02)
+        time.sleep(0.1)
     process.send_signal(number)
     _, err = process.communicate(timeout=30)
     assert process.returncode == code
