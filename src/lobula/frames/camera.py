@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 from ..errors import FrameSourceError
@@ -10,6 +12,10 @@ from .inputs import InputOptions
 from .video import VideoReader, open_container
 
 _SYSTEMS = {"linux": "v4l2", "darwin": "avfoundation"}
+_OURS = {
+    "video_size": "input_size", "framerate": "rate_hz", "input_format": "pixel_format", "pixel_format": "pixel_format",
+}  # fmt: skip
+"""FFmpeg's name of a request -> ours."""
 
 
 def open_camera(number: int, how: InputOptions) -> VideoReader:
@@ -17,7 +23,7 @@ def open_camera(number: int, how: InputOptions) -> VideoReader:
 
     Raises
     ------
-    FrameSourceError : there is no such camera, it may not be used, or it gives no picture
+    FrameSourceError : there is no such camera, it may not be used, is in use, or gives no picture of what was asked for
     """
     device = f"/dev/video{number}" if sys.platform == "linux" else str(number)
     name = f"camera {number}" + (f" ({device})" if sys.platform == "linux" else "")
@@ -32,7 +38,13 @@ def open_camera(number: int, how: InputOptions) -> VideoReader:
     if how.pixel_format is not None:
         options["input_format" if driver == "v4l2" else "pixel_format"] = how.pixel_format
     timeout = (how.timeout_s, how.timeout_s)
-    container = open_container(name, device, _cameras(), format=driver, options=options, timeout=timeout)
+    try:
+        container = open_container(name, device, _cameras(), format=driver, options=options, timeout=timeout)
+    except FrameSourceError as error:
+        reason = _reason(getattr(error.__cause__, "errno", None), options)
+        if reason is None:
+            raise
+        raise FrameSourceError(f"{name}: {reason}") from error
     return VideoReader(container, name, threads=how.threads, live=True)
 
 
@@ -49,6 +61,20 @@ def open_address(url: str, how: InputOptions) -> tuple[VideoReader, bool]:
     container = open_container(name, url, allowed, options=options, timeout=(how.timeout_s, how.timeout_s))
     recording = bool(container.duration) and url.startswith(("http://", "https://"))
     return VideoReader(container, name, threads=how.threads, live=not recording), not recording
+
+
+def _reason(number: int | None, asked: Mapping[str, str]) -> str | None:
+    """What a driver's error number means for the user, or None where its text says all there is to say."""
+    if number in (errno.EACCES, errno.EPERM):
+        return "permission denied: this user must be in the group that may use cameras, often called video"
+    if number == errno.EBUSY:
+        return "in use by another program: must be free"
+    if number in (errno.ENOENT, errno.ENODEV, errno.ENXIO, errno.ENOTTY):
+        return f"no camera there: {_cameras()}"
+    if number == errno.EINVAL and asked:
+        given = ", ".join(f"{_OURS[option]} {value}" for option, value in asked.items())
+        return f"does not give {given}: must be what the camera offers, see `v4l2-ctl --list-formats-ext`"
+    return None
 
 
 def _cameras() -> str:

@@ -51,6 +51,7 @@ class Clock:
         self._by_kernel = live and _KERNEL in container_format.split(",")
         self._first_arrived_s: float | None = None
         self._arrived_s = 0.0  # of the newest packet
+        self._before: tuple[float, float] | None = None  # time and arrival of the newest picture
         self._arrivals: dict[int, float] = {}  # by stamp, of the packets in the decoder
         # AVI stamps packets in the order of decoding: the n-th picture shown has the n-th smallest of those stamps
         self._by_decoding = container_format == "avi"
@@ -132,9 +133,21 @@ class Clock:
         if self._by_arrival and arrived_s is not None:
             self._first_arrived_s = arrived_s if self._first_arrived_s is None else self._first_arrived_s
             return Moment(arrived_s - self._first_arrived_s, index, arrived_s)
+        if arrived_s is not None:
+            return self._live_moment(stamp, index, arrived_s)
         if stamp is None or self._origin is None:
             raise FrameSourceError(f"{self._name}: frame {index}: no time stamp: must have one", on_the_way=index > 0)
-        return Moment((stamp - self._origin) * self._tick_s, index, arrived_s, self._capture(stamp))
+        return Moment((stamp - self._origin) * self._tick_s, index)
+
+    def _live_moment(self, stamp: int | None, number: int, arrived_s: float) -> Moment:
+        """The moment of a picture that may have no stamp, as RTSP's first one often has none: it follows by arrival."""
+        before_s, before_arrived_s = self._before or (0.0, arrived_s)
+        time_s = before_s + arrived_s - before_arrived_s
+        if stamp is not None:
+            self._origin = stamp - round(time_s / self._tick_s) if self._origin is None else self._origin
+            time_s = (stamp - self._origin) * self._tick_s
+        self._before = time_s, arrived_s
+        return Moment(time_s, number, arrived_s, None if stamp is None else self._capture(stamp))
 
     def _arrival(self, stamp: int | None) -> float:
         """When the packet of a picture came, before it was decoded."""

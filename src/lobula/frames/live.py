@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
@@ -11,7 +13,7 @@ from ..errors import FrameSourceError
 from ..types import Frame
 from .geometry import View
 from .luma import kind_of
-from .reconnect import News, Reconnecting
+from .reconnect import KEPT_NEWS, News, Reconnecting
 from .resize import Resizer
 from .selection import Picture, Selection
 from .source import FrameSource, Reader
@@ -48,6 +50,7 @@ class FrameStream(FrameSource):
         self.breaks = 0
         self._link = link
         self._resized = 0
+        self._told: deque[News] = deque(maxlen=KEPT_NEWS)
         self._timeout_s = timeout_s
         self._changed = threading.Condition()
         self._newest: Picture | None = None
@@ -69,8 +72,10 @@ class FrameStream(FrameSource):
         return self._link.away
 
     def news(self) -> list[News]:
-        """Return what became of the connection since the last call, oldest first."""
-        return self._link.news()
+        """Return what became of the connection since the last call and before the last frame, oldest first."""
+        news = list(self._told)
+        self._told.clear()
+        return news
 
     def poll(self, timeout_s: float) -> Frame | None:
         """Return the newest frame not yet delivered, waiting up to ``timeout_s`` for one; None when none came.
@@ -85,6 +90,8 @@ class FrameStream(FrameSource):
         with self._changed:
             self._changed.wait_for(lambda: self._newest is not None or self._ended, timeout_s)
             picture, self._newest = self._newest, None
+            # with the lock held: what is told is no later than what is delivered
+            self._told += self._link.news(math.inf if picture is None else picture.connection)
             if picture is None and self._error is not None:
                 error, self._error = self._error, None
                 raise error
@@ -122,7 +129,8 @@ class FrameStream(FrameSource):
     def _deliver(self, picture: Picture) -> Frame:
         now = kind_of(picture.data)
         if now[:2] != self._sampler.kind[:2]:
-            self._link.tell("resized", width=now[0], height=now[1])
+            facts = {"width": now[0], "height": now[1]}
+            self._told.append(News("resized", time.monotonic(), facts, picture.connection))
             self._lay_out(picture.data)
             self._resized += 1
         self.breaks = picture.breaks + self._resized
@@ -148,12 +156,12 @@ class FrameStream(FrameSource):
     def _placed(self) -> Iterator[Picture]:
         """Yield the pictures until the stream is closed, each with its place in time, without those out of order."""
         timeline, transit = Timeline(), Transit()
-        connections, breaks = self._link.connections, 0
+        connection, breaks = 1, 0
         for picture in self._link.pictures():
             if self._closing.is_set():
                 return
-            if self._link.connections != connections:
-                connections = self._link.connections
+            if picture.connection != connection:
+                connection = picture.connection
                 timeline.connect()
             arrived_s = time.monotonic() if picture.arrived_s is None else picture.arrived_s
             time_s = timeline.place(picture.time_s, arrived_s)

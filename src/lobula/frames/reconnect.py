@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections import deque
@@ -14,10 +15,11 @@ from .selection import Picture
 from .source import Reader
 
 FIRST_WAIT_S, LONGEST_WAIT_S = 0.25, 10.0
-"""Before the first and the later tries, each wait twice the one before; a connection that holds longer than the
-longest wait makes them begin anew."""
+"""Before the first and the later tries, s, each wait twice the one before; a connection that holds for longer than the
+next wait makes them begin anew."""
 
-_KEPT_NEWS = 1000
+KEPT_NEWS = 1000
+"""So many wait for somebody to ask for them; the oldest go first."""
 
 
 Phase = Literal["lost", "retry", "back", "resized"]
@@ -33,6 +35,8 @@ class News(NamedTuple):
     phase: Phase
     at_s: float
     facts: Mapping[str, str | int | float]
+    connection: int = 1
+    """The connection that is lost, or is tried for in vain, is that before; the one that is back or resized is this."""
 
 
 class Reconnecting:
@@ -48,7 +52,7 @@ class Reconnecting:
     def __init__(self, reader: Reader, reopen: Callable[[], Reader] | None = None, patience_s: float = 0.0) -> None:
         self.name, self.fps, self.frame_count = reader.name, reader.fps, reader.frame_count
         self.first = reader.first
-        self.connections = 1
+        self._connection = 1
         self._reader = reader
         self._reopen = reopen if patience_s > 0 else None
         self._patience_s = patience_s
@@ -56,7 +60,7 @@ class Reconnecting:
         self._lost_s: float | None = None
         self._damaged_before = 0
         self._notes_before: list[str] = []
-        self._news: deque[News] = deque(maxlen=_KEPT_NEWS)
+        self._news: deque[News] = deque(maxlen=KEPT_NEWS)
         self._wait_s = FIRST_WAIT_S
 
     @property
@@ -79,16 +83,16 @@ class Reconnecting:
         """True while there is no connection and it is being tried."""
         return self._lost_s is not None
 
-    def news(self) -> list[News]:
-        """Return what happened since the last call, oldest first; the oldest of very many are left out."""
+    def news(self, connection: float = math.inf) -> list[News]:
+        """Return what happened up to ``connection`` and was not told yet, oldest first."""
         news = []
-        while self._news:
+        while self._news and self._news[0].connection <= connection:
             news.append(self._news.popleft())
         return news
 
-    def tell(self, phase: Phase, **facts: str | int | float) -> None:
+    def _tell(self, phase: Phase, connection: int, **facts: str | int | float) -> None:
         """Add to the news."""
-        self._news.append(News(phase, time.monotonic(), facts))
+        self._news.append(News(phase, time.monotonic(), facts, connection))
 
     def stop(self) -> None:
         """Ask for an end, from any thread: no further try, no further picture."""
@@ -115,7 +119,7 @@ class Reconnecting:
                     if self._stopping.is_set():
                         return
                     count = first + picture.index + 1
-                    yield replace(picture, index=first + picture.index)
+                    yield replace(picture, index=first + picture.index, connection=self._connection)
             except FrameSourceError as error:
                 reason = str(error)
                 if self._reopen is None:
@@ -123,14 +127,15 @@ class Reconnecting:
             if self._reopen is None:
                 raise FrameSourceError(reason, on_the_way=True)
             first = count
-            if time.monotonic() - connected_s > LONGEST_WAIT_S:
+            if time.monotonic() - connected_s > self._wait_s:
                 self._wait_s = FIRST_WAIT_S
             self._connect_again(reason, self._reopen)
 
     def _connect_again(self, reason: str, reopen: Callable[[], Reader]) -> None:
         """Replace the broken connection by a new one; on return there is one, or the end was asked for."""
         self._lost_s = time.monotonic()
-        self.tell("lost", reason=reason)
+        coming = self._connection + 1
+        self._tell("lost", coming, reason=reason)
         self._reader.close()
         attempt, left_s = 0, self._patience_s
         while not self._stopping.wait(min(self._wait_s, left_s)):
@@ -144,11 +149,11 @@ class Reconnecting:
                 if left_s <= 0:
                     tries = f"given up after {away_s:.1f} s, tries: {attempt}"
                     raise FrameSourceError(f"{error}; {tries}", on_the_way=True) from error
-                self.tell("retry", attempt=attempt, reason=str(error))
+                self._tell("retry", coming, attempt=attempt, reason=str(error))
                 continue
             self._damaged_before, self._notes_before = self.damaged, self.notes
             self._reader = reader
-            self.connections += 1
-            self.tell("back", attempt=attempt, away_s=round(time.monotonic() - self._lost_s, 3))
+            self._connection = coming
+            self._tell("back", coming, attempt=attempt, away_s=round(time.monotonic() - self._lost_s, 3))
             self._lost_s = None
             return

@@ -14,8 +14,8 @@ from ..errors import FrameSourceError, ParameterError
 class Picture:
     """One decoded picture before it is sampled: a PyAV video frame or an (H, W) array, its stamp and its number.
 
-    Of live sources also when it came in and when it was captured, on the clock of ``time.monotonic``, and how often
-    the thread of pictures had broken off before it.
+    Of live sources also when it came in and when it was captured, on the clock of ``time.monotonic``, the number of its
+    connection from 1, and how often the thread of pictures had broken off before it.
     """
 
     data: Any
@@ -23,6 +23,7 @@ class Picture:
     index: int
     arrived_s: float | None = None
     captured_s: float | None = None
+    connection: int = 1
     breaks: int = 0
 
 

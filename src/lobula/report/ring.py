@@ -23,7 +23,7 @@ class Slot(NamedTuple):
 
 
 class Ring:
-    """Keeps the frames of the last ``before_s`` and a little more: it begins with a key frame, and they come seldom."""
+    """Keeps the frames of the last ``before_s``, and up to a second more: it begins with a key frame."""
 
     def __init__(self, before_s: float, most_bytes: int = MOST_BYTES) -> None:
         self._before_s = before_s
@@ -38,7 +38,7 @@ class Ring:
             yield from group
 
     @property
-    def bytes(self) -> int:
+    def size_bytes(self) -> int:
         """What the encoded pictures take."""
         return self._bytes
 
@@ -48,7 +48,7 @@ class Ring:
             self._groups.append([])
         self._groups[-1].append(slot)
         self._bytes += len(slot.coded.data)
-        while len(self._groups) > 1 and slot.reading.time_s - self._groups[1][0].reading.time_s >= self._before_s:
+        while len(self._groups) > 1 and slot.reading.time_s - self._groups[0][-1].reading.time_s > self._before_s:
             self._drop()
             self.cut_short = False
         while len(self._groups) > 1 and self._bytes > self._most_bytes:

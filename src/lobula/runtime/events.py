@@ -47,6 +47,7 @@ class EventLog:
         self.collisions: list[Collision] = []
         self._open: Collision | None = None
         self.state: State = "ok"
+        self._entered_s = 0.0
         self._last: tuple[int, float] | None = None
 
     def step(self, index: int, reading: Reading) -> list[Record]:
@@ -65,6 +66,8 @@ class EventLog:
         if state == self.state:
             return []
         left, self.state = self.state, state
+        # a silence is told by the clock here, and a frame that comes late has an older stamp than that
+        time_s = self._entered_s = max(time_s, self._entered_s)
         ends = [] if left == "ok" else [_state_record(left, "end", index, time_s)]
         starts = [] if state == "ok" else [_state_record(state, "start", index, time_s)]
         return ends + starts

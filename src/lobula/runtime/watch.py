@@ -84,6 +84,7 @@ class Watch:
         records: list[Record] = []
         for news in () if self._stream is None else self._stream.news():
             time_s = min(self._tally.last_s + max(0.0, news.at_s - self._arrived_s), latest_s)
+            records += self._tally.log.elapse(time_s)
             records.append(source_record(news.phase, self._tally.index, time_s, news.facts))
             if news.phase == "lost":
                 self._tally.lose(news.at_s)
