@@ -17,7 +17,10 @@ from .office import END, HEADER, START, SUMMARY, delivered, event, opened, readi
 from .test_webhook import make_certificate
 
 pytest.importorskip("paho.mqtt", reason="needs paho-mqtt 2, the extra mqtt")
+from paho.mqtt.client import MQTTErrorCode, MQTTMessageInfo
+
 from lobula.hooks import mqtt
+from lobula.hooks.message import told
 
 
 @pytest.fixture
@@ -109,6 +112,24 @@ def test_a_lobula_that_is_cut_off_goes_offline_by_itself(broker, subscriber):
     hook._client.socket().shutdown(socket.SHUT_RDWR)  # what a killed process looks like to the broker
     wait_until(lambda: subscriber.of("robot/7/online")[-1] == 0)
     office.close(SUMMARY)
+
+
+def test_a_line_that_breaks_while_a_record_is_written_loses_nothing():
+    class Breaking:
+        """A client whose line is gone, though it has not heard of it yet."""
+
+        def publish(self, *_):
+            handed = MQTTMessageInfo(1)
+            handed.rc = MQTTErrorCode.MQTT_ERR_CONN_LOST
+            return handed
+
+        def is_connected(self):
+            return True
+
+    hook = make_hook("mqtt://host/topic")
+    hook._client = Breaking()
+    with pytest.raises(ConnectionResetError):  # an OSError: the record is sent again
+        hook.send(told("event", START))
 
 
 def test_nobody_there(tmp_path):

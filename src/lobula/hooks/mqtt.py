@@ -27,6 +27,7 @@ KEEPALIVE_S = 20
 
 ONCE_AT_LEAST, ONCE_AT_MOST = 1, 0
 _GOODBYE_S = 1.0
+_CLOSED = "the broker has closed the connection"
 _LOOK_S = 0.1  # between two looks whether the connection is still there
 
 
@@ -112,10 +113,12 @@ class Mqtt(Hook):
         deadline_s = time.monotonic() + (TIMEOUT_S if timeout_s is None else timeout_s)
         handed = self._client.publish(f"{self._topic}/{name}", payload, quality, retain)
         while self._client.is_connected() and time.monotonic() < deadline_s:
-            with suppress(RuntimeError):  # the connection went meanwhile: seen by the line above
+            try:
                 handed.wait_for_publish(_LOOK_S)
-            if handed.is_published():
-                return
+                if handed.is_published():
+                    return
+            except RuntimeError as error:  # it could not even be written
+                raise ConnectionResetError(_CLOSED) from error
         if self._client.is_connected():
             raise TimeoutError("the broker does not acknowledge")
-        raise ConnectionResetError("the broker has closed the connection")
+        raise ConnectionResetError(_CLOSED)
