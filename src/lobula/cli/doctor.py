@@ -23,6 +23,7 @@ EXTRAS = {
     "mqtt": (("paho",), "--hook mqtt://, records to a broker"),
     "mavlink": (("pymavlink", "serial"), "--hook mavlink:, alarms for an autopilot"),
     "mcap": (("mcap",), "--hook mcap:, recordings for Foxglove"),
+    "rosbags": (("rosbags",), "ROS bags: --hook rosbag:, and as a source"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

@@ -28,6 +28,7 @@ KINDS: dict[str, HookKind] = {
     "mqtts": HookKind("mqtts://HOST/TOPIC", "publishes the records to a broker, encrypted", "mqtt"),
     "mavlink": HookKind("mavlink:LINK", "COLLISION and potentials for an autopilot or ground station", "mavlink"),
     "mcap": HookKind("mcap:FILE.mcap", "a recording for Foxglove, pictures included", "mcap"),
+    "rosbag": HookKind("rosbag:DIR", "a ROS 2 bag of standard messages, pictures included", "rosbag"),
 }
 """Scheme -> kind. A module is imported only when a target asks for it."""
 
