@@ -1,7 +1,9 @@
-"""Cameras of this machine: what can be told without one."""
+"""Cameras, with a stand-in for the driver: no test here had a real V4L2 camera."""
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
 
 import av
@@ -9,27 +11,87 @@ import pytest
 
 import lobula.frames
 from lobula.errors import FrameSourceError, ParameterError
-from lobula.frames import camera
+from lobula.frames import camera, reconnect
 from lobula.frames.inputs import InputOptions
+
+from .clips import moving_bar, write_clip
 
 linux_only = pytest.mark.skipif(sys.platform != "linux", reason="names the devices of Linux")
 
 
+class Device:
+    """Stands in for the driver: each opening of a camera raises or opens what the test lined up, the last for ever."""
+
+    def __init__(self, monkeypatch, *script):
+        self.script, self.opened, self._open = list(script), 0, av.open
+        monkeypatch.setattr(av, "open", self)
+
+    def __call__(self, url, *mode, **how):
+        if not str(url).startswith("/dev/"):
+            return self._open(url, *mode, **how)
+        self.opened += 1
+        thing = self.script.pop(0) if len(self.script) > 1 else self.script[0]
+        if isinstance(thing, OSError):
+            raise thing
+        return self._open(str(thing))
+
+
+def trouble(number):
+    return OSError(number, os.strerror(number), "/dev/video0")
+
+
 @linux_only
 def test_no_such_camera():
-    with pytest.raises(FrameSourceError, match=r"camera 97 \(/dev/video97\): No such file or directory: must") as e:
+    says = r"camera 97 \(/dev/video97\): no camera there: must be a camera this user may use; found "
+    with pytest.raises(FrameSourceError, match=says) as caught:
         lobula.frames.open(97)
-    assert "\n" not in str(e.value)
+    assert "\n" not in str(caught.value)
 
 
 @linux_only
-def test_camera_that_may_not_be_used(monkeypatch):
-    def refuse(*_, **__):
-        raise av.error.PermissionError(13, "Permission denied", "/dev/video0")
-
-    monkeypatch.setattr(av, "open", refuse)
-    with pytest.raises(FrameSourceError, match=r"camera 0 \(/dev/video0\): Permission denied: must be a camera this"):
+@pytest.mark.parametrize(
+    ("error", "says"),
+    [
+        (
+            av.error.PermissionError(13, "Permission denied"),
+            "permission denied: this user must be in the group",
+        ),
+        (trouble(errno.EPERM), "permission denied: this user must be in the group"),
+        (trouble(errno.EBUSY), "in use by another program: must be free"),
+        (trouble(errno.ENODEV), "no camera there: must be a camera this user may use; found"),
+        (trouble(errno.ENOTTY), "no camera there: must be a camera this user may use; found"),
+        (trouble(errno.EIO), "Input/output error: must be a camera this user may use; found"),
+    ],
+)
+def test_what_a_driver_refuses_is_said_in_one_line(monkeypatch, error, says):
+    Device(monkeypatch, error)
+    with pytest.raises(FrameSourceError, match=rf"^camera 0 \(/dev/video0\): {says}") as caught:
         lobula.frames.open("0")
+    assert "\n" not in str(caught.value)
+
+
+@linux_only
+def test_a_wrong_pixel_format_is_named(monkeypatch):
+    Device(monkeypatch, trouble(errno.EINVAL))
+    says = r"does not give input_size 640x480, rate_hz 90, pixel_format yuyv: must be what the camera offers"
+    with pytest.raises(FrameSourceError, match=says):
+        lobula.frames.open(0, input_size=(640, 480), rate_hz=90, pixel_format="yuyv")
+
+
+@linux_only
+def test_unplugged_and_plugged_in_again(monkeypatch, tmp_path):
+    monkeypatch.setattr(reconnect, "FIRST_WAIT_S", 0.001)
+    clip = write_clip(tmp_path / "clip.mkv", moving_bar(8))
+    device = Device(monkeypatch, clip, trouble(errno.ENODEV), trouble(errno.EACCES), clip)
+    with lobula.frames.open(0, reconnect_s=60) as frames:
+        frame, news = None, []
+        while frame is None or frame.index < 8:
+            frame = frames.poll(1)
+            news += frames.news()
+    assert [n.phase for n in news][:4] == ["lost", "retry", "retry", "back"]
+    assert "no camera there" in news[1].facts["reason"]
+    assert "permission denied" in news[2].facts["reason"]  # until the system has made the device anew
+    assert device.opened >= 4
 
 
 @linux_only

@@ -43,7 +43,7 @@ class Timeline:
                 self._connected_anew = False
                 self.breaks += 1
                 self._shift_s = self.last_s + max(waited_s, _LEAST_S) - stamp_s
-            elif step_s <= 0:
+            elif stamp_s + self._shift_s <= self.last_s:
                 return None
         self._stamp_s, self._arrived_s = stamp_s, arrived_s
         self.last_s = stamp_s + self._shift_s
