@@ -15,7 +15,7 @@ import os
 import sys
 from pathlib import Path
 
-GROUPS = ("steps", "streams", "file", "startup", "memory", "static", "tuning")
+GROUPS = ("steps", "streams", "file", "startup", "memory", "static", "tuning", "batch")
 ROUNDS, QUICK_ROUNDS = 9, 3
 ONE_THREAD = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
 

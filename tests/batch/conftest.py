@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lobula
-from lobula.batch.request import request, write_settings
+from lobula.batch.request import make_request, write_settings
 from lobula.batch.work import Desk
 from lobula.report.grey_clip import write_grey_clip
 
@@ -52,7 +52,9 @@ def ask(out):
 
     def make(**options):
         network = {name: options.pop(name) for name in ("params", "preset") if name in options}
-        asked = request(out, network.get("params", lobula.preset()), preset=network.get("preset", "default"), **options)
+        asked = make_request(
+            out, network.get("params", lobula.preset()), preset=network.get("preset", "default"), **options
+        )
         write_settings(asked)
         return asked
 

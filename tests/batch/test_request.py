@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 import lobula
-from lobula.batch.request import request
+from lobula.batch.request import make_request
 from lobula.engine import library
 from lobula.errors import FrameSourceError, LobulaError, MissingExtraError, ParameterError
 from lobula.report.png import write_png
 
 
 def settings(out, params=None, **options):
-    return request(out, params or lobula.preset(), preset="default", **options).settings
+    return make_request(out, params or lobula.preset(), preset="default", **options).settings
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ from lobula.batch.lines import Lines
 from lobula.batch.places import work_folder
 from lobula.batch.row import COLUMNS
 from lobula.batch.work import Answer
-from lobula.errors import OutputError
+from lobula.errors import OutputError, ParameterError
 from lobula.runtime.interrupts import Interrupted
 
 from .conftest import Alone, write_clip
@@ -147,6 +147,14 @@ def test_what_another_run_has_in_hand_is_waited_for(folder, ask, out, monkeypatc
     thread.join()
     assert ended.rows[0].status == "ok"
     assert len(keys) > 2  # it was asked about more than once
+
+
+def test_a_request_that_is_refused_on_the_way_is_no_summary(folder, ask, out, monkeypatch):
+    monkeypatch.setattr(Stopped, "stop", ParameterError("a worker has other code"))
+    with pytest.raises(ParameterError, match=r"^a worker has other code$"):
+        batch(folder, ask, out, hands=Stopped)
+    assert len(manifest(out)) >= 2
+    assert not (out / "summary.json").exists()
 
 
 class Killing(Alone):

@@ -190,6 +190,26 @@ def test_bad_input_is_one_line_and_leaves_nothing(call, folder, tmp_path, case):
     assert not (tmp_path / "out").exists()
 
 
+def test_nobody_at_the_address_of_the_cluster(call, folder, monkeypatch):
+    pytest.importorskip("distributed", reason="needs the extra dask, too large for the tests")
+    monkeypatch.setattr("lobula.batch.cluster._ANSWERS_IN_S", 0.5)
+    done = call("batch", "clips", "--out", "out", "--cluster", "tcp://127.0.0.1:1")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        "lobula: --cluster tcp://127.0.0.1:1: no Dask scheduler answers: must be dask or an address such as "
+        "tcp://10.0.0.1:8786\n"
+    )
+
+
+def test_a_cluster_on_this_machine(spawn, folder, tmp_path):
+    pytest.importorskip("distributed", reason="needs the extra dask, too large for the tests")
+    process = spawn("batch", "clips", "--out", "out", "--cluster", "dask", "--workers", 1)
+    out, err = process.communicate(timeout=100)
+    assert (process.returncode, err) == (0, "")
+    assert "2 clips: 2 ok; " in out
+    done_once(tmp_path / "out", 2)
+
+
 def test_a_folder_that_cannot_be_written_into(call, folder):
     done = call("batch", "clips", "--out", "/proc/out")
     assert done.code in (2, 3)

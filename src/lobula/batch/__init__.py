@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from .clips import Clip, find_clips
-from .request import Request
+from .cluster import Cluster
+from .crew import Crew
+from .request import Request, make_request
 from .row import Row
 from .run import Ended, run_batch
 
-__all__ = ["Clip", "Ended", "Request", "Row", "find_clips", "run_batch"]
+__all__ = ["Clip", "Cluster", "Crew", "Ended", "Request", "Row", "find_clips", "make_request", "run_batch"]

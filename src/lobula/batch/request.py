@@ -34,7 +34,7 @@ _SELECTION = ("start_s", "end_s", "stride", "max_frames")
 
 @dataclass(frozen=True, kw_only=True)
 class Request:
-    """All that is the same for every clip of a batch. Checked when it is made by ``request``.
+    """All that is the same for every clip of a batch. Checked when it is made by ``make_request``.
 
     out : the folder that is written into, absolute
     engine : ``core`` or ``reference``
@@ -60,7 +60,7 @@ class Request:
         return (EVENTS, *([self.trace] if self.trace else []), *([VIDEO] if self.annotate else []))
 
 
-def request(
+def make_request(
     out: Path,
     params: NetworkParams,
     *,

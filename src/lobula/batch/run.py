@@ -9,7 +9,7 @@ from types import TracebackType
 from typing import Protocol, Self
 
 from .._version import __version__
-from ..errors import LobulaError, OutputError
+from ..errors import OutputError
 from ..runtime.interrupts import Interrupted
 from .claim import sweep
 from .clips import Clip
@@ -48,12 +48,12 @@ class Ended:
     """How a batch ended.
 
     rows : of every clip, in the order of the clips
-    stop : the signal, or the error, that ended it before all were done; None
+    stop : the signal, or the output that failed, that ended it before all were done; None
     """
 
     rows: tuple[Row, ...]
     summary: Summary
-    stop: Interrupted | LobulaError | None
+    stop: Interrupted | OutputError | None
 
 
 def run_batch(
@@ -67,6 +67,7 @@ def run_batch(
     Raises
     ------
     OutputError : the output folder cannot be written into at all
+    ParameterError : no cluster at the address, or a worker with other code; what was finished by then is kept
     """
     begun_s = time.monotonic()
     write_settings(request)
@@ -74,14 +75,14 @@ def run_batch(
     log = Lines(manifest_path(request.out))
     log.new()
     found, fresh = dict[Clip, Row](), list[Row]()
-    stop: Interrupted | LobulaError | None = None
+    stop: Interrupted | OutputError | None = None
     try:
         with hands:
             for clip, row, is_fresh in _done(clips, request, hands):
                 found[clip] = row
                 fresh += [row] if is_fresh else []
                 tell(row)
-    except (Interrupted, LobulaError) as error:
+    except (Interrupted, OutputError) as error:
         stop = error
         late = _on_their_way([clip for clip in clips if clip not in found], log, request)
         found |= late

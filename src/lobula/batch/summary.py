@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from .._version import __version__
-from ..errors import LobulaError
+from ..errors import OutputError
 from ..params import settings_hash
 from ..report.csv_lines import csv_lines
 from ..report.landing import whole_file
@@ -67,7 +67,7 @@ def summarise(
     *,
     workers: int,
     seconds: float,
-    stop: Interrupted | LobulaError | None,
+    stop: Interrupted | OutputError | None,
 ) -> Summary:
     """Return the summary of ``rows``, of which this call itself has made ``fresh``; ``stop`` is what ended it early."""
     of = {status: [row for row in rows if row.status == status] for status in ("ok", "failed", "unfinished")}

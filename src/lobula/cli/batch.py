@@ -64,8 +64,7 @@ def batch(
 
     Give the same command again to go on after an interruption, or to take up new clips.
     """
-    from ..batch import find_clips, run_batch
-    from ..batch.request import request
+    from ..batch import find_clips, make_request, run_batch
     from ..model.scaling import scaled
     from ..runtime.interrupts import Interrupted
     from .batch_text import as_text, document, failure
@@ -78,7 +77,7 @@ def batch(
         raise ParameterError(f"--trace {trace}: must be one of {', '.join(TRACES)}")
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     view = o.view(size, fit, roi, mask, flip, rotate)
-    asked = request(
+    asked = make_request(
         out, scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params, preset=chosen.preset,
         engine=engine, trace=TRACES[trace], annotate=annotate, **view,
         start_s=start, end_s=end, stride=stride, max_frames=max_frames, rate_hz=rate,
