@@ -37,7 +37,7 @@ class Chromium:
         )  # fmt: skip
         try:
             port, path = _eventually(self._address, 60)
-            self._socket = connect(f"ws://127.0.0.1:{port}{path}", max_size=None, compression=None)
+            self._socket = connect(f"ws://127.0.0.1:{port}{path}", max_size=None, compression=None).__enter__()
         except BaseException:
             self._process.kill()
             raise

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 from lobula.cli.settings_file import settings_toml
@@ -143,9 +144,10 @@ class Watcher:
     """A viewer that is no browser."""
 
     def __init__(self, site: Site, **how: Any):
-        self.socket = connect(f"ws://127.0.0.1:{site.port}/stream", max_size=None, open_timeout=20, **how)
+        self._connection = connect(f"ws://127.0.0.1:{site.port}/stream", max_size=None, open_timeout=20, **how)
 
     def __enter__(self) -> Watcher:
+        self.socket = self._connection.__enter__()
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -156,6 +158,14 @@ class Watcher:
 
     def take(self, timeout_s: float = 20.0) -> Message:
         return taken_apart(self.socket.recv(timeout_s))
+
+    def end(self) -> int | None:
+        """Take whatever comes until the server closes; return the code it gives."""
+        try:
+            while True:
+                self.take()
+        except ConnectionClosed as closed:
+            return None if closed.rcvd is None else closed.rcvd.code
 
     def until(self, true: Callable[[Message], Any], timeout_s: float = 30.0) -> Message:
         deadline_s = time.monotonic() + timeout_s

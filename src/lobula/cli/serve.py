@@ -166,15 +166,18 @@ def _replay(
     from ..dashboard.rows import Rows
     from ..engine.network import chosen_engine
     from ..runtime.header import run_header
+    from .progress import say
 
     with closing(Recording(frames, open_at)) as recording:
+        recording.block(0)  # a recording that gives no picture is refused before anything is announced
         analysis = Analysis(recording, engine=engine, yaw_rate_deg_s=None if turns is None else turns.at)
         header = run_header(frames, settings.params, preset=settings.preset, engine=chosen_engine(engine))
         with closing(RecordedScenes(analysis)) as scenes:
             board = Board(about_run("recording", header, settings), Rows(), settings=settings, scenes=scenes)
             with make(board) as site:
                 _announce(site, "recording", frames.name, json)
-                Replay(analysis, settings, board, partial(_tell_change, json)).work()
+                tell = partial(_tell_change, json)
+                Replay(analysis, settings, board, tell, lambda text: say(f"lobula: {text}")).work()
     return 0
 
 

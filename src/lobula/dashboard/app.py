@@ -112,7 +112,7 @@ class _Desk:
             asked = json.loads(await _body(request))
             if not isinstance(asked, dict) or not asked:
                 raise ParameterError("must be {PATH: VALUE, ...}")
-            if asked == {"restore": True}:
+            if asked.keys() == {"restore"} and asked["restore"] is True:
                 settings.restore()
             else:
                 settings.change(asked)

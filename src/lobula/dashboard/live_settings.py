@@ -77,16 +77,12 @@ class LiveSettings:
                 inner = inner.setdefault(group, {})
             inner[name] = value
         with self._lock:
-            self.params = with_settings(self.params, nested, SOURCE)
-            self.version += 1
-        self._tell()
+            self._take(with_settings(self.params, nested, SOURCE))
 
     def restore(self) -> None:
         """Go back to the settings of the start."""
         with self._lock:
-            self.params = self.start
-            self.version += 1
-        self._tell()
+            self._take(self.start)
 
     def described(self) -> list[dict[str, Any]]:
         """Return one entry a setting for the page: group, label, range, meaning, slider, value at the start."""
@@ -112,7 +108,11 @@ class LiveSettings:
             "settings_hash": settings_hash(params),
         }
 
-    def _tell(self) -> None:
+    def _take(self, params: NetworkParams) -> None:
+        if params == self.params:
+            return
+        self.params = params
+        self.version += 1
         for listener in self._listeners:
             listener()
 

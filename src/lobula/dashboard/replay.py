@@ -21,7 +21,8 @@ _TELL_S = 0.05
 class Replay:
     """Fills ``board`` from ``analysis`` with the settings as they are.
 
-    ``on_change`` is called with the settings before and after a change, by the thread that works.
+    ``on_change`` is called with the settings before and after a change, by the thread that works; ``say`` is told what
+    is odd about the recording.
     """
 
     def __init__(
@@ -30,11 +31,14 @@ class Replay:
         settings: LiveSettings,
         board: Board,
         on_change: Callable[[NetworkParams, NetworkParams], None],
+        say: Callable[[str], None],
     ) -> None:
         self._analysis = analysis
         self._settings = settings
         self._board = board
         self._on_change = on_change
+        self._say = say
+        self._read = False
         self._changed = threading.Condition()
         self._told_s = 0.0
         settings.listen(self._notify)
@@ -64,6 +68,11 @@ class Replay:
         if trace is not None:
             board.replace_events(event_records(trace))
             board.tell(complete=True, total=len(recording), problem=recording.problem)
+            if not self._read:
+                self._read = True
+                for text in [*recording.source.notes, recording.problem]:
+                    if text:
+                        self._say(text)
 
     def _put(self, first: int, trace: NDArray[Any]) -> None:
         self._board.rows.put(first, rows_of(trace))
