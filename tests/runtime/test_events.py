@@ -96,3 +96,30 @@ def test_a_whole_trace():
     # 30 Hz: alarms in frames 10..12 and 20..21 are one event (8 frames apart), 60 is another (38 frames)
     events = collisions_of(trace({10, 11, 12, 20, 21, 60}, 90))
     assert [(e.id, e.start_frame, e.end_frame) for e in events] == [(1, 10, 22), (2, 60, 61)]
+
+
+def test_a_loss_ends_what_is_under_way_and_is_stale_until_a_frame_comes():
+    log = EventLog()
+    feed(log, 0, collision=True)
+    end, stale = log.lose(0, 0.4)
+    assert (end["phase"], end["frame"], end["time_s"]) == ("end", 0, 0.4)
+    assert (stale["state"], stale["phase"], stale["time_s"]) == ("stale", "start", 0.4)
+    assert log.lose(0, 0.5) == []
+    (over,) = feed(log, 9)
+    assert (over["state"], over["phase"], over["frame"]) == ("stale", "end", 9)
+
+
+def test_an_alarm_that_was_over_before_the_loss_ends_where_it_did():
+    log = EventLog()
+    feed(log, 0, collision=True)
+    feed(log, 1)
+    end, _ = log.lose(1, 0.2)
+    assert (end["frame"], end["time_s"]) == (1, 0.1)
+
+
+def test_no_state_ends_before_it_started():
+    log = EventLog()
+    feed(log, 0)
+    log.lose(0, 3.0)  # by the clock here
+    (over,) = feed(log, 1)  # a frame that was under way all the time
+    assert over["time_s"] == 3.0

@@ -4,18 +4,16 @@ from __future__ import annotations
 
 import errno
 
-import numpy as np
 import pytest
 
 from lobula.errors import FrameSourceError, OutputError, ParameterError, TimeError
-from lobula.frames import open as open_frames
-from lobula.runtime import tally, watch
 from lobula.runtime.loop import run
 from lobula.runtime.ndjson import ReaderGoneError
 from lobula.runtime.outputs import Outputs
+from lobula.runtime.sinks import OutputLapseError
 from lobula.runtime.tally import unbegun_summary
 
-from .readings import Clock, LiveSource, Network, Sink, Source, frames
+from .readings import Network, Sink, Source, frames
 
 
 def outcome_of(source, sinks, network=None, **how):
@@ -152,61 +150,36 @@ def test_a_frame_without_a_yaw_rate(known_until_s, status, code):
     assert sink.calls.count("close") == 1
 
 
-def live(monkeypatch, script, network=None):
-    clock, sink = Clock(), RecordingSink()
-    for module in (watch, tally):
-        monkeypatch.setattr(module, "time", clock)
-    outcome, _ = outcome_of(LiveSource(script, clock), [sink], network)
-    return outcome, sink.records, sink.states
+def test_events_go_out_before_the_frame_is_drawn():
+    sink = Sink()
+    outcome_of(Source(frames(3)), [sink], Network({1}))
+    assert sink.calls == ["open", "frame", "event", "frame", "frame", "event", "close"]
 
 
-class RecordingSink(Sink):
+def test_an_output_that_lost_something_goes_on_and_says_so():
+    lossy, good = Sink(fails=("frame",), error=OutputLapseError), Sink()
+    outcome, said = outcome_of(Source(frames(3)), [lossy, good])
+    assert lossy.calls == ["open", "frame", "frame", "frame", "close"]
+    assert good.calls == lossy.calls
+    assert said == outcome.summary["problems"] == ["cannot frame"] * 3
+    assert (outcome.summary["status"], outcome.exit_code) == ("output_failed", 3)
+
+
+class Manager:
+    """A service manager that notes what it is told."""
+
     def __init__(self):
-        super().__init__()
-        self.records, self.states = [], []
+        self.told = []
 
-    def event(self, record):
-        self.records.append(record)
+    def beat(self, words, ready):
+        self.told.append((ready, words()))
 
-    def frame(self, index, reading, picture):
-        self.states.append(reading.state)
-
-
-def test_a_silent_camera_is_stale_until_it_speaks(monkeypatch):
-    network = Network()
-    script = [*frames(30), *([0.1] * 15), *frames(30, first=75)]
-    outcome, records, _ = live(monkeypatch, script, network)
-    assert [(r["state"], r["phase"], r["frame"]) for r in records] == [("stale", "start", 29), ("stale", "end", 75)]
-    assert records[0]["time_s"] == pytest.approx(29 / 30 + 1.1, abs=0.11)  # told a tenth of a second late at most
-    assert network.resets == 1
-    assert (outcome.summary["frames"], outcome.summary["dropped"], outcome.exit_code) == (60, 2, 0)
+    def stop(self):
+        self.told.append("stopped")
 
 
-def test_a_short_silence_is_nothing(monkeypatch):
-    _, records, _ = live(monkeypatch, [*frames(5), *([0.1] * 9), *frames(5, first=35)])
-    assert records == []
-
-
-def test_a_frozen_camera_is_stale(monkeypatch):
-    network = Network()
-    script = [*frames(10), *frames(60, first=10, value=77), *frames(5, first=70)]
-    _, records, states = live(monkeypatch, script, network)
-    # 77 first shows in frame 10 at 1/3 s; more than a second later is after frame 40
-    assert [(r["phase"], r["frame"]) for r in records] == [("start", 41), ("end", 70)]
-    assert states[40:42] == ["ok", "stale"]
-    assert states[69:71] == ["stale", "ok"]
-    assert network.resets == 1
-
-
-def test_a_still_recording_is_never_stale():
-    sink = RecordingSink()
-    images = np.full((90, 72, 99), 100, np.uint8)
-    with open_frames(images) as source:
-        outcome, _ = outcome_of(source, [sink])
-    assert sink.records == []
-    assert outcome.summary["frames"] == 90
-
-
-def test_an_alarm_before_the_silence_is_ended_in_it(monkeypatch):
-    _, records, _ = live(monkeypatch, [*frames(10), *([0.1] * 8)], Network({5}))
-    assert [(r["type"], r["phase"]) for r in records] == [("collision", "start"), ("collision", "end")]
+def test_a_service_manager_hears_of_every_frame_and_of_the_end():
+    manager = Manager()
+    outcome_of(Source([*frames(2), FrameSourceError("cable out")]), [], service=manager)
+    assert [t if isinstance(t, str) else t[0] for t in manager.told] == [True, True, "stopped"]
+    assert manager.told[1][1] == "ok: 1 frames, 0 dropped, 0 collisions, lost 0 times"
