@@ -17,7 +17,6 @@ from lobula.types import NEURONS
 
 from .stage import Watcher, ask, live
 
-
 CUTS = pytest.mark.skipif(not hasattr(socket, "TCP_USER_TIMEOUT"), reason="this system cannot cut unread connections")
 
 
