@@ -13,6 +13,7 @@ from .._version import __version__
 VERBS = {
     "demo": "see it work: no camera, no window; who spiked when, and a picture",
     "run": "watch a clip, a camera or a pipe: collisions, traces, annotated video, report",
+    "serve": "show it in a browser, live or replayed: picture, traces, events; thresholds changed live",
     "batch": "many clips on all cores or a cluster; what is done already is not done again",
     "evaluate": "score labelled clips: hits, lead times, false alarms a minute",
     "arena": "several robots in a room: contacts, avoidances, success rates",
