@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import sys
 
 import pytest
 
@@ -72,6 +73,7 @@ def test_nobody_to_tell(environment):
     assert find_service(environment) is None
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="Linux alone has such names")
 def test_a_name_outside_the_file_system():
     name = "lobula test of services"
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as listener:

@@ -127,8 +127,11 @@ def test_an_alarm_under_way_ends_with_the_loss(monkeypatch):
 def test_an_alarm_under_way_ends_in_silence(monkeypatch):
     _, records, _ = live(monkeypatch, [*frames(10), *[0.1] * 30], Network({7, 8, 9}))
     assert kinds(records) == [
-        ("collision", None, "start"), ("collision", None, "end"), ("state", "stale", "start"), ("state", "stale", "end"),
-    ]  # fmt: skip
+        ("collision", None, "start"),
+        ("collision", None, "end"),
+        ("state", "stale", "start"),
+        ("state", "stale", "end"),
+    ]
 
 
 def test_a_frozen_picture_is_never_a_collision(monkeypatch):
