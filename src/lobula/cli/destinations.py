@@ -84,14 +84,15 @@ def make_folder(option: str, folder: Path) -> None:
 
 
 def _files_of(source: str | Path | None) -> Iterable[Path]:
-    """The files that a source names: itself, the images of a folder and their times, what a pattern matches."""
+    """The files that a source names: itself, a folder's images and their times, or its bag, what a pattern matches."""
     from ..frames.folder import IMAGE_ENDINGS, TIMES_FILE
+    from ..frames.inputs import BAG_ENDINGS
 
     if source is None:
         return []
     path = Path(str(source).removeprefix("file://"))
     if path.is_dir():
-        return [p for p in path.iterdir() if p.suffix.lower() in IMAGE_ENDINGS or p.name == TIMES_FILE]
+        return [p for p in path.iterdir() if p.suffix.lower() in (*IMAGE_ENDINGS, *BAG_ENDINGS) or p.name == TIMES_FILE]
     return [path] if path.exists() else map(Path, glob.glob(str(path), recursive=True))
 
 

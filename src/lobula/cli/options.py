@@ -14,7 +14,7 @@ Source = Annotated[
     str,
     typer.Argument(
         metavar="SOURCE",
-        help="video, image folder, pattern, camera number, rtsp:// or http:// address, or - for a pipe",
+        help="video, image folder, pattern, ROS bag, camera number, rtsp:// or http:// address, or - for a pipe",
     ),
 ]
 
@@ -58,6 +58,7 @@ PixelFormat = Annotated[
     str | None, typer.Option(metavar="NAME", help="raw pipe: gray8, yuv420p, nv12, yuyv422, ...; a request to a camera")
 ]
 InputSize = Annotated[str | None, typer.Option(metavar="WxH", help="raw pipe: size of its pictures; or as above")]
+Topic = Annotated[str | None, typer.Option(metavar="/NAME", help="ROS bag: which of its pictures")]
 
 Reconnect = Annotated[
     str | None,

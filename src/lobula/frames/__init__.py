@@ -39,6 +39,7 @@ def open(
     times_s: Sequence[float] | NDArray[Any] | None = None,
     pixel_format: str | None = None,
     input_size: tuple[int, int] | None = None,
+    topic: str | None = None,
     threads: int = 1,
     timeout_s: float = 10.0,
     reconnect_s: float = 0.0,
@@ -48,9 +49,9 @@ def open(
 
     Parameters
     ----------
-    source : a video or image file; a folder of images; a pattern such as "shots/*.png"; "-" for standard input;
-        a camera number (0 or "0"); an address (rtsp://, http://, ...); (T, H, W) images, uint8 or float luma 0..255;
-        or an object with ``images`` and ``times_s``
+    source : a video or image file; a folder of images; a pattern such as "shots/*.png"; a ROS bag; "-" for standard
+        input; a camera number (0 or "0"); an address (rtsp://, http://, ...); (T, H, W) images, uint8 or float luma
+        0..255; or an object with ``images`` and ``times_s``
     size : (width, height) of the working image
     fit : how a picture of another shape is brought to it: "crop" the middle, "squeeze", or "pad" with grey
     roi : (x, y, width, height), pixels of the picture after rotation and flip
@@ -63,6 +64,7 @@ def open(
         a request to a camera
     times_s : (T,) stamps of an array, seconds
     pixel_format, input_size : layout and (width, height) of a raw pipe's pictures; a request to a camera
+    topic : which pictures of a ROS bag; may be left out if it holds one topic with pictures
     threads : decoder threads; 0 lets FFmpeg choose
     timeout_s : how long a camera or an address may stay silent
     reconnect_s : how long a live source that went away is tried again; 0 not at all, infinity for ever
@@ -86,6 +88,7 @@ def open(
         times_s=times_s,
         pixel_format=pixel_format,
         input_size=input_size,
+        topic=topic,
         threads=threads,
         timeout_s=timeout_s,
         reconnect_s=reconnect_s,

@@ -18,7 +18,7 @@ from ..errors import FrameSourceError, ParameterError
 from .array import ArrayReader
 from .source import Reader
 
-Kind = Literal["file", "folder", "pattern", "pipe", "camera", "address", "array"]
+Kind = Literal["file", "folder", "pattern", "pipe", "camera", "address", "array", "bag"]
 
 _TAKES: dict[Kind, tuple[str, ...]] = {
     "file": ("rate_hz",),
@@ -28,7 +28,11 @@ _TAKES: dict[Kind, tuple[str, ...]] = {
     "camera": ("rate_hz", "pixel_format", "input_size"),
     "address": (),
     "array": ("rate_hz", "times_s"),
+    "bag": ("topic",),
 }
+
+BAG_ENDINGS = (".bag", ".db3", ".mcap")
+"""Files that are ROS bags, or the storage of one."""
 
 _A: dict[Kind, str] = {kind: f"{'an' if kind in ('address', 'array') else 'a'} {kind}" for kind in _TAKES}
 
@@ -40,6 +44,7 @@ class InputOptions:
     rate_hz: float | None = None
     times_s: Sequence[float] | NDArray[Any] | None = None
     pixel_format: str | None = None
+    topic: str | None = None
     input_size: tuple[int, int] | None = None
     threads: int = 1
     timeout_s: float = 10.0
@@ -70,7 +75,7 @@ class InputOptions:
         ------
         ParameterError : such an option is given
         """
-        for name in ("rate_hz", "times_s", "pixel_format", "input_size"):
+        for name in ("rate_hz", "times_s", "pixel_format", "input_size", "topic"):
             if getattr(self, name) is not None and name not in _TAKES[kind]:
                 fit = ", ".join(_A[k] for k, names in _TAKES.items() if name in names)
                 raise ParameterError(f"{name}: {source} is {_A[kind]}: may be given only for {fit}")
@@ -123,9 +128,9 @@ def kind_of_source(source: Any) -> tuple[Kind, str]:
         return "address", text
     text = text.removeprefix("file://")
     if Path(text).is_dir():
-        return "folder", text
+        return "bag" if _is_bag(Path(text)) else "folder", text
     if Path(text).exists():
-        return "file", text
+        return "bag" if Path(text).suffix in BAG_ENDINGS else "file", text
     if glob.has_magic(text):
         return "pattern", text
     raise FrameSourceError(f"{text}: no such file or folder")
@@ -137,6 +142,10 @@ def _recorded(kind: Kind, where: str, options: InputOptions) -> Reader:
         from .pipe import open_pipe
 
         return open_pipe(options.pixel_format, options.input_size, options.rate_hz, options.threads)
+    if kind == "bag":
+        from .bag import open_bag
+
+        return open_bag(where, options.topic)
     if kind == "file":
         from .video import open_file
 
@@ -144,6 +153,15 @@ def _recorded(kind: Kind, where: str, options: InputOptions) -> Reader:
     from .folder import open_folder, open_pattern
 
     return open_folder(Path(where), options.rate_hz) if kind == "folder" else open_pattern(where, options.rate_hz)
+
+
+def _is_bag(folder: Path) -> bool:
+    """Whether a folder is a ROS 2 bag: what its metadata begins with says so."""
+    try:
+        with (folder / "metadata.yaml").open("rb") as file:
+            return b"rosbag2_bagfile_information" in file.read(4096)
+    except OSError:
+        return False
 
 
 def _array(source: Any, options: InputOptions) -> Reader:
