@@ -83,7 +83,8 @@ class H264Encoder:
                 "preset": speed,
                 "tune": "zerolatency",  # no picture waits in the encoder for later ones, nor is lost there
                 "crf": str(crf),
-                "g": "100000",  # key frames come by time, below
+                "g": "100000",  # key frames come by time, below, and not by what is in the picture
+                "sc_threshold": "0",
                 "forced-idr": "1",
                 "threads": "2",
             }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -12,6 +13,9 @@ from .h264 import Coded
 MOST_BYTES = 64 * 2**20
 """The ring holds no more than this, however much changes in the picture. 10 s of pure noise, 640 x 480 at 30 Hz, take
 26 MB; of a street, 2 or 3."""
+
+
+_JITTER_S = 1e-6  # stamps are sums of rounded numbers
 
 
 class Slot(NamedTuple):
@@ -30,12 +34,16 @@ class Ring:
         self._most_bytes = most_bytes
         self._groups: deque[list[Slot]] = deque()  # each begins with a key frame
         self._bytes = 0
-        self.cut_short = False
-        """True when what is kept is less than was asked for, because it would have been too large."""
+        self._newest_s = self._cut_s = -math.inf
 
     def __iter__(self) -> Iterator[Slot]:
         for group in self._groups:
             yield from group
+
+    @property
+    def cut_short(self) -> bool:
+        """True when what is kept is less than was asked for, because it would have been too large."""
+        return self._newest_s - self._cut_s <= self._before_s + _JITTER_S
 
     @property
     def size_bytes(self) -> int:
@@ -48,12 +56,15 @@ class Ring:
             self._groups.append([])
         self._groups[-1].append(slot)
         self._bytes += len(slot.coded.data)
-        while len(self._groups) > 1 and slot.reading.time_s - self._groups[0][-1].reading.time_s > self._before_s:
+        self._newest_s = slot.reading.time_s
+        while len(self._groups) > 1 and self._newest_s - self._oldest_end_s() > self._before_s + _JITTER_S:
             self._drop()
-            self.cut_short = False
         while len(self._groups) > 1 and self._bytes > self._most_bytes:
+            self._cut_s = self._oldest_end_s()
             self._drop()
-            self.cut_short = True
+
+    def _oldest_end_s(self) -> float:
+        return self._groups[0][-1].reading.time_s
 
     def _drop(self) -> None:
         self._bytes -= sum(len(slot.coded.data) for slot in self._groups.popleft())
