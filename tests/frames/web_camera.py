@@ -28,6 +28,7 @@ class WebCamera:
     def __init__(self, image: Callable[[int], NDArray[np.uint8]], rate_hz: float = RATE_HZ) -> None:
         self.image, self.rate_hz, self.mode, self.shown, self.visits = image, rate_hz, "run", 0, 0
         self._links: list[Any] = []
+        self._refusals: int | None = None
         camera = self
 
         class Handler(http.server.BaseHTTPRequestHandler):
@@ -50,9 +51,9 @@ class WebCamera:
         self._server.shutdown()
         self._server.server_close()
 
-    def unplug(self) -> None:
-        """Cut off everybody, and refuse until ``mode`` says otherwise."""
-        self.mode = "refuse"
+    def unplug(self, refusals: int | None = None) -> None:
+        """Cut off everybody, and refuse until ``mode`` says otherwise, or for so many visits."""
+        self.mode, self._refusals = "refuse", refusals
         links, self._links = self._links, []
         for link in links:
             with contextlib.suppress(OSError):
@@ -62,6 +63,9 @@ class WebCamera:
         self.visits += 1
         if self.mode == "refuse":
             request.send_error(503)
+            if self._refusals is not None:
+                self._refusals -= 1
+                self.mode = "refuse" if self._refusals > 0 else "run"
             return
         self._links.append(request.connection)
         request.send_response(200)
