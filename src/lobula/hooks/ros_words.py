@@ -41,6 +41,15 @@ def alarm(record: Mapping[str, Any]) -> bool | None:
     return record["phase"] == "start" if record["type"] == "collision" else None
 
 
+def reading_status(record: Mapping[str, Any]) -> Status:
+    """Return a reading as a status: an alarm is an error, a state in which nothing is decided a warning."""
+    if record["collision"]:
+        level, said = ERROR, "collision"
+    else:
+        level, said = {"ok": OK, "stale": STALE}.get(record["state"], WARN), str(record["state"]).replace("_", " ")
+    return Status(level, "lobula: reading", said, _values(record))
+
+
 def status(record: Mapping[str, Any]) -> Status:
     """Return an event or the summary as a status: a collision is an error, a lost or silent source is stale."""
     kind, phase = record["type"], record.get("phase")
@@ -53,5 +62,8 @@ def status(record: Mapping[str, Any]) -> Status:
     else:
         level = OK
     said = [str(record[key]) for key in ("type", "id", "state", "phase", "status", "reason") if record.get(key)]
-    values = [(key, str(value)) for key, value in record.items()]
-    return Status(level, f"lobula: {kind}", " ".join(said).replace("_", " "), values)
+    return Status(level, f"lobula: {kind}", " ".join(said).replace("_", " "), _values(record))
+
+
+def _values(record: Mapping[str, Any]) -> list[tuple[str, str]]:
+    return [(key, str(value)) for key, value in record.items()]
