@@ -158,6 +158,19 @@ def test_a_signal_while_it_reconnects(spawn, tmp_path, number, code):
         assert sum(1 for _ in video.decode(video=0)) == summary["frames"]
 
 
+@pytest.mark.parametrize("scheme", ["http", "rtsp"])
+def test_a_signal_while_nobody_answers(spawn, scheme):
+    with socket.create_server(("127.0.0.1", 0)) as listener:
+        process = spawn("run", f"{scheme}://127.0.0.1:{listener.getsockname()[1]}/x", "--json")
+        link, _ = listener.accept()
+        with link:
+            link.recv(1)  # it has asked, and now waits for ten seconds
+            process.terminate()
+            out, err = process.communicate(timeout=30)
+    assert (process.returncode, err) == (143, "lobula: interrupted (SIGTERM)\n")
+    assert json.loads(out)["status"] == "interrupted"
+
+
 def times_of(path):
     with av.open(str(path)) as video:
         return [frame.time for frame in video.decode(video=0)]

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from ..errors import FrameSourceError, ParameterError
 from .array import ArrayReader
+from .interruptible import interruptible
 from .source import Reader
 
 Kind = Literal["file", "folder", "pattern", "pipe", "camera", "address", "array", "bag"]
@@ -96,11 +97,11 @@ def open_reader(source: Any, options: InputOptions) -> tuple[Reader, bool]:
     if kind == "address":
         from .camera import open_address
 
-        return open_address(where, options)
+        return interruptible(lambda: open_address(where, options), lambda opened: opened[0].close())
     if kind == "camera":
         from .camera import open_camera
 
-        return open_camera(int(where), options), True
+        return interruptible(lambda: open_camera(int(where), options), lambda reader: reader.close()), True
     return _recorded(kind, where, options), False
 
 
