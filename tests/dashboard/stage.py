@@ -159,6 +159,15 @@ class Watcher:
     def take(self, timeout_s: float = 20.0) -> Message:
         return taken_apart(self.socket.recv(timeout_s))
 
+    def all(self, silent_s: float) -> list[Message]:
+        """Return what comes until nothing has come for ``silent_s``."""
+        found = []
+        try:
+            while True:
+                found.append(self.take(silent_s))
+        except TimeoutError:
+            return found
+
     def end(self) -> int | None:
         """Take whatever comes until the server closes; return the code it gives."""
         try:

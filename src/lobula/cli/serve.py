@@ -73,6 +73,8 @@ def serve(
     rate: o.Rate = None,
     pixel_format: o.PixelFormat = None,
     input_size: o.InputSize = None,
+    reconnect: o.Reconnect = None,
+    timeout: o.Timeout = None,
 ) -> int:
     """Show SOURCE in a browser: picture, traces, events, thresholds that can be changed while it runs.
 
@@ -85,6 +87,7 @@ def serve(
     from ..report.trace_file import TRACE_SUFFIXES
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw
+    from .live import live_options, require_live
     from .settings import choose
 
     def site(board: Board) -> Site:
@@ -105,10 +108,12 @@ def serve(
             source, **view, start_s=start_s, end_s=end, stride=stride, max_frames=most, rate_hz=rate,
             pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
+            **live_options(reconnect, timeout),
         )  # fmt: skip
 
     live = LiveSettings(params, chosen.preset)
     with opened(start, max_frames) as frames:
+        require_live(frames, reconnect=reconnect, timeout=timeout)
         if turns is not None and frames.live:
             raise ParameterError(f"--yaw {yaw}: {frames.name} is live: must be a recording, whose times are known")
         if frames.live or source == "-":
@@ -130,6 +135,7 @@ def _watch(
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
+    from ..runtime.service import find_service
     from .narrator import Narrator
     from .progress import say
 
@@ -146,7 +152,7 @@ def _watch(
         sinks = [LiveSink(board, frames, network), NdjsonSink(sys.stdout) if json else Narrator(say)]
         outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
         rate = None if turns is None else turns.at
-        outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate)
+        outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, service=find_service())
         if outcome.message:
             say(f"lobula: {outcome.message}")
         return outcome.exit_code
