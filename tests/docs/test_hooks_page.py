@@ -47,7 +47,13 @@ def targets() -> list[str]:
 
 @pytest.mark.parametrize("target", targets())
 def test_the_targets_are_accepted(clip: None, target: str) -> None:
-    for scheme, library in (("mqtt", "paho"), ("mavlink", "pymavlink"), ("mcap", "mcap"), ("rosbag", "rosbags")):
+    for scheme, library in (
+        ("mqtt", "paho"),
+        ("mavlink", "pymavlink"),
+        ("mcap", "mcap"),
+        ("rosbag", "rosbags"),
+        ("rerun", "rerun"),
+    ):
         if target.startswith(scheme) and importlib.util.find_spec(library) is None:
             pytest.skip(f"needs the extra {scheme}")
     assert make_hook(target).name

@@ -103,13 +103,16 @@ def test_links_that_cannot_be(target, says):
         ("mqtt://host/topic", "paho.mqtt.client", "mqtt"),
         ("mavlink:udpout:host:1", "pymavlink.dialects.v20", "mavlink"),
         ("mavlink:/dev/ttyS0", "serial", "mavlink"),
+        ("mcap:a.mcap", "mcap.writer", "mcap"),
+        ("rosbag:new", "rosbags.rosbag2", "rosbags"),
+        ("rerun:a.rrd", "rerun", "rerun"),
     ],
 )
 def test_a_library_that_is_not_there(monkeypatch, target, library, extra):
     if library == "serial":
         pytest.importorskip("pymavlink", reason="needs pymavlink (93 MB), the extra mavlink")
     else:
-        monkeypatch.delitem(sys.modules, f"lobula.hooks.{extra}", raising=False)
+        monkeypatch.delitem(sys.modules, f"lobula.hooks.{KINDS[target.split(':')[0]].module}", raising=False)
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(MissingExtraError, match=rf'pip install "lobula\[{extra}\]"'):
         make_hook(target)

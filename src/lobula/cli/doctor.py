@@ -24,6 +24,7 @@ EXTRAS = {
     "mavlink": (("pymavlink", "serial"), "--hook mavlink:, alarms for an autopilot"),
     "mcap": (("mcap",), "--hook mcap:, recordings for Foxglove"),
     "rosbags": (("rosbags",), "ROS bags: --hook rosbag:, and as a source"),
+    "rerun": (("rerun",), "--hook rerun:, recordings for Rerun"),
     "bench": (("scipy", "cv2"), "the comparisons of lobula bench"),
 }
 """Extra -> its modules, and what it is for."""

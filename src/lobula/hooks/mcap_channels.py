@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ..types import TRACE_DTYPE
+from .said import said, warns
 
 FRAME_ID = "camera"
 _NAME = "lobula"
@@ -69,10 +70,8 @@ CHANNELS = (READINGS, EVENTS, LOG, PICTURES)
 
 def log_message(record: Mapping[str, Any], at_ns: int) -> bytes:
     """Return an event or the summary as a foxglove.Log; collisions that start and lost sources are warnings."""
-    warns = (record["type"], record.get("phase")) in (("collision", "start"), ("source", "lost"))
-    said = [str(record[key]) for key in ("type", "id", "state", "phase", "status", "reason") if record.get(key)]
     return _message({
-        "timestamp": _time(at_ns), "level": WARNING if warns else INFO, "message": " ".join(said),
+        "timestamp": _time(at_ns), "level": WARNING if warns(record) else INFO, "message": said(record),
         "name": _NAME, "file": "", "line": 0,
     })  # fmt: skip
 

@@ -29,6 +29,7 @@ KINDS: dict[str, HookKind] = {
     "mavlink": HookKind("mavlink:LINK", "COLLISION and potentials for an autopilot or ground station", "mavlink"),
     "mcap": HookKind("mcap:FILE.mcap", "a recording for Foxglove, pictures included", "mcap"),
     "rosbag": HookKind("rosbag:DIR", "a ROS 2 bag of standard messages, pictures included", "rosbag"),
+    "rerun": HookKind("rerun:FILE.rrd", "a recording for Rerun, pictures included", "rerun"),
 }
 """Scheme -> kind. A module is imported only when a target asks for it."""
 

@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from ..types import NEURONS
+from .said import said
 
 OK, WARN, ERROR, STALE = 0, 1, 2, 3
 """Levels of a diagnostic_msgs/DiagnosticStatus."""
@@ -44,10 +45,10 @@ def alarm(record: Mapping[str, Any]) -> bool | None:
 def reading_status(record: Mapping[str, Any]) -> Status:
     """Return a reading as a status: an alarm is an error, a state in which nothing is decided a warning."""
     if record["collision"]:
-        level, said = ERROR, "collision"
+        level, text = ERROR, "collision"
     else:
-        level, said = {"ok": OK, "stale": STALE}.get(record["state"], WARN), str(record["state"]).replace("_", " ")
-    return Status(level, "lobula: reading", said, _values(record))
+        level, text = {"ok": OK, "stale": STALE}.get(record["state"], WARN), str(record["state"]).replace("_", " ")
+    return Status(level, "lobula: reading", text, _values(record))
 
 
 def status(record: Mapping[str, Any]) -> Status:
@@ -61,8 +62,7 @@ def status(record: Mapping[str, Any]) -> Status:
         level = WARN
     else:
         level = OK
-    said = [str(record[key]) for key in ("type", "id", "state", "phase", "status", "reason") if record.get(key)]
-    return Status(level, f"lobula: {kind}", " ".join(said).replace("_", " "), _values(record))
+    return Status(level, f"lobula: {kind}", said(record), _values(record))
 
 
 def _values(record: Mapping[str, Any]) -> list[tuple[str, str]]:
