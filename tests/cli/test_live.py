@@ -6,6 +6,7 @@ import json
 import random
 import signal
 import socket
+import subprocess
 import time
 
 import av
@@ -217,6 +218,27 @@ def test_clips_of_a_recording_and_the_pictures_as_they_were(call, clip, tmp_path
     assert again.records[-1]["collisions"] == 1  # what was recorded says the same
 
 
+def test_a_live_pipe(spawn, movie):
+    raw = ("run", "-", "--live", "--pixel-format", "gray8", "--input-size", "99x72")
+    process = spawn(*raw, "--json", stdin=subprocess.PIPE, text=False)
+    process.stdin.write(movie.images[0].tobytes())
+    process.stdin.flush()
+    for image in movie.images[1:40]:
+        process.stdin.write(image.tobytes())
+        process.stdin.flush()
+        time.sleep(0.01)
+    time.sleep(1.5)  # nothing comes, and it is not taken for a still scene
+    out, err = process.communicate(timeout=30)
+    *records, summary = map(json.loads, out.splitlines())
+    assert ("state", "stale", "start") in kinds(records[1:])
+    assert (process.returncode, summary["status"], err) == (3, "source_failed", b"lobula: -: the stream ended\n")
+    assert summary["latency_ms"] > 0
+    assert summary["frames"] + summary["dropped"] == 40
+    refused = spawn(*raw, "--reconnect", "5", stdin=subprocess.PIPE, text=False)
+    _, err = refused.communicate(movie.images[:3].tobytes(), timeout=30)
+    assert (refused.returncode, err) == (2, b"lobula: --reconnect 5: - is a pipe: must be a camera or a stream\n")
+
+
 def test_word_to_a_service_manager(spawn, tmp_path):
     with socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as manager, WebCamera(lambda n: BARS[n % 40]) as camera:
         manager.bind(str(tmp_path / "notify"))
@@ -241,6 +263,7 @@ def test_word_to_a_service_manager(spawn, tmp_path):
         (["--reconnect", "0"], "--reconnect 0: must be forever, never or seconds above 0"),
         (["--reconnect", "nan"], "--reconnect nan: must be forever, never or seconds above 0"),
         (["--reconnect", "30"], "--reconnect 30: clip.mp4 is not live: must be a camera or a stream"),
+        (["--live"], "live: clip.mp4 is a file: may be given only for a pipe"),
         (["--timeout", "0"], "--timeout 0: must be seconds above 0"),
         (["--timeout", "5"], "--timeout 5.0: clip.mp4 is not live: must be a camera or a stream"),
         (["--keep-before", "5"], "--keep-before 5: must have a --keep DIR to go with"),

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import io
+import os
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
 
 import lobula.frames
 from lobula.errors import FrameSourceError, ParameterError
+from lobula.frames import FrameStream
 from lobula.frames.geometry import View
 from lobula.frames.pipe import open_pipe
 from lobula.frames.selection import Selection
@@ -138,3 +141,32 @@ def test_an_interrupt_ends_the_wait_for_data(number):
         child.send_signal(number)
         assert child.stdout.readline() == (b"KeyboardInterrupt\n" if number == signal.SIGINT else b"Stop\n")
         assert child.wait(20) == 0
+
+
+def last_of(frames, least):
+    """Poll on until a frame of number ``least`` or later came."""
+    while (frame := frames.poll(5)) is None or frame.index < least:
+        pass
+    return frame
+
+
+@pytest.mark.parametrize("kind", ["raw", "y4m"])
+def test_a_live_pipe_gives_the_newest_picture_at_the_time_it_came(kind):
+    head, mark = (b"YUV4MPEG2 W64 H48 F30:1 Cmono\n", b"FRAME\n") if kind == "y4m" else (b"", b"")
+    how = ("gray8", (64, 48)) if kind == "raw" else (None, None)
+    reading, writing = os.pipe()
+    begun_s = time.monotonic()
+    with open(reading, "rb", buffering=0) as file, open(writing, "wb", buffering=0) as feed:
+        feed.write(head + b"".join(mark + picture.tobytes() for picture in PICTURES[:4]))
+        with FrameStream(open_pipe(*how, file=file, live=True), View(size=(64, 48)), Selection()) as frames:
+            first = last_of(frames, 3)
+            time.sleep(0.3)
+            feed.write(mark + PICTURES[4].tobytes())
+            second = last_of(frames, 4)
+            assert begun_s < first.captured_s < second.captured_s < time.monotonic()
+            assert frames.fps == 30.0
+            assert second.time_s - first.time_s > 0.25  # by the clock, not by the rate that it claims
+            np.testing.assert_allclose(second.image, PICTURES[4], atol=1e-3)
+            feed.close()
+            with pytest.raises(FrameSourceError, match="-: the stream ended"):
+                last_of(frames, 5)

@@ -27,15 +27,16 @@ def live_options(reconnect: str | None, timeout_s: float | None) -> dict[str, An
 
 
 def require_live(frames: FrameSource, **given: object) -> None:
-    """Check that options which only live sources heed were given for one; ``given`` maps their names to their values.
+    """Check options that only sources heed which can be opened again; ``given`` maps their names to their values.
 
     Raises
     ------
-    ParameterError : one of them was given, and the source is a recording
+    ParameterError : one of them was given, and the source is a recording or a pipe
     """
     for name, value in given.items():
-        if value is not None and not frames.live:
-            raise ParameterError(f"--{name} {value}: {frames.name} is not live: must be a camera or a stream")
+        if value is not None and (not frames.live or frames.name == "-"):
+            what = "a pipe" if frames.name == "-" else "not live"
+            raise ParameterError(f"--{name} {value}: {frames.name} is {what}: must be a camera or a stream")
 
 
 def _seconds(option: str, text: str, allowed: str) -> float:

@@ -60,6 +60,7 @@ PixelFormat = Annotated[
 InputSize = Annotated[str | None, typer.Option(metavar="WxH", help="raw pipe: size of its pictures; or as above")]
 Topic = Annotated[str | None, typer.Option(metavar="/NAME", help="ROS bag: which of its pictures")]
 
+Live = Annotated[bool, typer.Option("--live", help="a pipe's newest picture instead of every one")]
 Reconnect = Annotated[
     str | None,
     typer.Option(metavar="forever|never|S", help="how long to try a live source that went away; forever if left out"),

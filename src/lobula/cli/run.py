@@ -71,6 +71,7 @@ def run(
     pixel_format: o.PixelFormat = None,
     input_size: o.InputSize = None,
     topic: o.Topic = None,
+    live: o.Live = False,
     reconnect: o.Reconnect = None,
     timeout: o.Timeout = None,
 ) -> int:
@@ -110,7 +111,7 @@ def run(
             source, **view, start_s=start, end_s=end, stride=stride,
             max_frames=max_frames, rate_hz=rate, pixel_format=pixel_format,
             input_size=None if input_size is None else o.parse_size(input_size, "--input-size"),
-            topic=topic,
+            topic=topic, live=live or None,
             **live_options(reconnect, timeout),
         )  # fmt: skip
         try:

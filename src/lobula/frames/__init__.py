@@ -40,6 +40,7 @@ def open(
     pixel_format: str | None = None,
     input_size: tuple[int, int] | None = None,
     topic: str | None = None,
+    live: bool | None = None,
     threads: int = 1,
     timeout_s: float = 10.0,
     reconnect_s: float = 0.0,
@@ -65,15 +66,16 @@ def open(
     times_s : (T,) stamps of an array, seconds
     pixel_format, input_size : layout and (width, height) of a raw pipe's pictures; a request to a camera
     topic : which pictures of a ROS bag; may be left out if it holds one topic with pictures
+    live : a pipe's newest frame instead of every one, with silence and latency looked at
     threads : decoder threads; 0 lets FFmpeg choose
     timeout_s : how long a camera or an address may stay silent
-    reconnect_s : how long a live source that went away is tried again; 0 not at all, infinity for ever
+    reconnect_s : how long a camera or an address that went away is tried again; 0 not at all, infinity for ever
     resizer : makes the crop-and-average step for uint8 planes; by default ``AreaAverage``
 
     Returns
     -------
     FrameSequence : every frame, in order
-    FrameStream : the newest frame; for cameras and for addresses that are not recordings of known length
+    FrameStream : the newest frame; for cameras, addresses that are not recordings of known length, a live pipe
 
     Raises
     ------
@@ -89,6 +91,7 @@ def open(
         pixel_format=pixel_format,
         input_size=input_size,
         topic=topic,
+        live=live,
         threads=threads,
         timeout_s=timeout_s,
         reconnect_s=reconnect_s,
@@ -96,7 +99,7 @@ def open(
     reader, live = open_reader(source, options)
     try:
         if live:
-            again = partial(_reopen, source, options)
+            again = None if reader.name == "-" else partial(_reopen, source, options)
             return FrameStream(reader, view, selection, resizer, timeout_s, again, reconnect_s)
         return FrameSequence(reader, view, selection, resizer)
     except BaseException:

@@ -12,7 +12,7 @@ from .packets import stamp_of
 UNSTAMPED = frozenset({"h261", "h263", "h264", "hevc", "m4v", "mjpeg", "mpegvideo", "obu", "vvc"})
 """Bare streams: they hold no time, and what a demuxer says of it is made up."""
 
-_ARRIVAL = UNSTAMPED | {"mpjpeg"}  # live, these take the time at which a picture came
+_ARRIVAL = UNSTAMPED | {"mpjpeg", "rawvideo", "yuv4mpegpipe"}  # live, these take the time at which a picture came
 _KERNEL = "v4l2"  # its stamps are the driver's, of the same clock as time.monotonic
 _NEAR_S = 60.0  # a driver whose stamps lie further from now than this keeps another clock
 _IN_DECODER = 64  # packets whose arrival is remembered; no decoder holds as many
@@ -127,12 +127,12 @@ class Clock:
             self._index += len(self._lost) - len(later)
             self._lost = later
         index, self._index = self._index, self._index + 1
-        if self._rate_hz is not None:
-            return Moment(index / self._rate_hz, index)
         arrived_s = self._arrival(stamp) if self._live else None
         if self._by_arrival and arrived_s is not None:
             self._first_arrived_s = arrived_s if self._first_arrived_s is None else self._first_arrived_s
             return Moment(arrived_s - self._first_arrived_s, index, arrived_s)
+        if self._rate_hz is not None:
+            return Moment(index / self._rate_hz, index)
         if arrived_s is not None:
             return self._live_moment(stamp, index, arrived_s)
         if stamp is None or self._origin is None:

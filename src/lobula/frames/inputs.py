@@ -25,7 +25,7 @@ _TAKES: dict[Kind, tuple[str, ...]] = {
     "file": ("rate_hz",),
     "folder": ("rate_hz",),
     "pattern": ("rate_hz",),
-    "pipe": ("rate_hz", "pixel_format", "input_size"),
+    "pipe": ("rate_hz", "pixel_format", "input_size", "live"),
     "camera": ("rate_hz", "pixel_format", "input_size"),
     "address": (),
     "array": ("rate_hz", "times_s"),
@@ -46,6 +46,7 @@ class InputOptions:
     times_s: Sequence[float] | NDArray[Any] | None = None
     pixel_format: str | None = None
     topic: str | None = None
+    live: bool | None = None
     input_size: tuple[int, int] | None = None
     threads: int = 1
     timeout_s: float = 10.0
@@ -76,7 +77,7 @@ class InputOptions:
         ------
         ParameterError : such an option is given
         """
-        for name in ("rate_hz", "times_s", "pixel_format", "input_size", "topic"):
+        for name in ("rate_hz", "times_s", "pixel_format", "input_size", "topic", "live"):
             if getattr(self, name) is not None and name not in _TAKES[kind]:
                 fit = ", ".join(_A[k] for k, names in _TAKES.items() if name in names)
                 raise ParameterError(f"{name}: {source} is {_A[kind]}: may be given only for {fit}")
@@ -102,6 +103,12 @@ def open_reader(source: Any, options: InputOptions) -> tuple[Reader, bool]:
         from .camera import open_camera
 
         return interruptible(lambda: open_camera(int(where), options), lambda reader: reader.close()), True
+    if kind == "pipe":
+        from .pipe import open_pipe
+
+        live = bool(options.live)
+        how = options.pixel_format, options.input_size, options.rate_hz, options.threads
+        return open_pipe(*how, live=live), live
     return _recorded(kind, where, options), False
 
 
@@ -139,10 +146,6 @@ def kind_of_source(source: Any) -> tuple[Kind, str]:
 
 def _recorded(kind: Kind, where: str, options: InputOptions) -> Reader:
     """Open a source that is not live; PyAV is imported here, when it is needed."""
-    if kind == "pipe":
-        from .pipe import open_pipe
-
-        return open_pipe(options.pixel_format, options.input_size, options.rate_hz, options.threads)
     if kind == "bag":
         from .bag import open_bag
 

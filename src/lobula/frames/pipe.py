@@ -25,12 +25,15 @@ def open_pipe(
     rate_hz: float | None = None,
     threads: int = 1,
     file: Any = None,
+    *,
+    live: bool = False,
 ) -> VideoReader:
     """Open standard input (or ``file``, opened for reading bytes).
 
     With ``pixel_format`` (gray8, yuv420p, nv12, yuyv422, rgb24, ...) and ``input_size`` (width, height) it holds raw
     pictures one after another, at ``rate_hz``; a last one that is cut short is noted and left out. Without them it
-    must be a stream that says what it is, such as Matroska, MPEG-TS or YUV4MPEG.
+    must be a stream that says what it is, such as Matroska, MPEG-TS or YUV4MPEG. With ``live`` raw pictures and others
+    without stamps of their own take the time at which they came.
 
     Raises
     ------
@@ -44,13 +47,13 @@ def open_pipe(
     try:
         if pixel_format is None or input_size is None:
             allowed = "not a stream that FFmpeg recognises: raw pictures need pixel_format and input_size"
-            return PipeReader(open_container("-", pipe, allowed), "-", threads=threads, rate_hz=rate_hz)
+            return PipeReader(open_container("-", pipe, allowed), "-", threads=threads, rate_hz=rate_hz, live=live)
         how, picture_bytes = raw_options(pixel_format, input_size, rate_hz or DEFAULT_RATE_HZ)
         width, height = input_size
         allowed = f"no whole {width} x {height} {pixel_format} picture: must hold {picture_bytes} bytes each"
         container = open_container("-", pipe, allowed, format="rawvideo", options=how, buffer_size=picture_bytes)
         try:
-            return PipeReader(container, "-", cut_tail_is_fine=True)
+            return PipeReader(container, "-", cut_tail_is_fine=True, live=live)
         except FrameSourceError as error:
             raise FrameSourceError(f"-: {allowed}") from error
     except _InterruptError as carried:
