@@ -7,7 +7,7 @@ import pytest
 
 import lobula
 
-pytest.importorskip("rosbags", reason="needs rosbags (45 MB with its compressors), the extra rosbags")
+pytest.importorskip("rosbags", reason="needs rosbags (22 MB with what it needs), the extra rosbags")
 from ..frames.test_bag import STEP_NS, T0_NS, StoragePlugin, image, write
 
 

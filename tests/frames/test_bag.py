@@ -11,7 +11,7 @@ from lobula.frames.inputs import kind_of_source
 
 from .clips import HEIGHT, WIDTH, image_bytes, moving_bar
 
-pytest.importorskip("rosbags", reason="needs rosbags (45 MB with its compressors), the extra rosbags")
+pytest.importorskip("rosbags", reason="needs rosbags (22 MB with what it needs), the extra rosbags")
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2

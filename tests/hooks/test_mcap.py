@@ -23,7 +23,7 @@ from lobula.hooks import make_hook
 
 from .office import END, HEADER, START, SUMMARY, delivered, event, opened, reading, wait_until
 
-pytest.importorskip("mcap", reason="needs mcap (31 MB with its compressors), the extra mcap")
+pytest.importorskip("mcap", reason="needs mcap (30 MB with its compressors), the extra mcap")
 from mcap.exceptions import EndOfFile
 from mcap.reader import make_reader
 from mcap.records import Channel, Message

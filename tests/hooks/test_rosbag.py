@@ -19,7 +19,7 @@ from lobula.types import NEURONS
 
 from .office import END, START, SUMMARY, delivered, event, opened, reading, wait_until
 
-pytest.importorskip("rosbags", reason="needs rosbags (45 MB with its compressors), the extra rosbags")
+pytest.importorskip("rosbags", reason="needs rosbags (22 MB with what it needs), the extra rosbags")
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import Reader
 from rosbags.rosbag2.storage_sqlite3 import Sqlite3Writer
