@@ -180,6 +180,6 @@ class Manager:
 
 def test_a_service_manager_hears_of_every_frame_and_of_the_end():
     manager = Manager()
-    outcome_of(Source([*frames(2), FrameSourceError("cable out")]), [], service=manager)
+    outcome_of(Source([*frames(2), FrameSourceError("cable out")]), [], listeners=[manager])
     assert [t if isinstance(t, str) else t[0] for t in manager.told] == [True, True, "stopped"]
-    assert manager.told[1][1] == "ok: 1 frames, 0 dropped, 0 collisions, lost 0 times"
+    assert manager.told[1][1] == "ok; collisions 0, dropped 0, lost 0"

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
+import time
+from collections.abc import Callable
 from typing import Any
 
 from ..errors import ParameterError
 from ..frames.source import FrameSource
+from ..runtime.service import Listener, find_service
+from .progress import Say, Screen
 
 DEFAULT_RECONNECT = "forever"
 
@@ -37,6 +41,32 @@ def require_live(frames: FrameSource, **given: object) -> None:
         if value is not None and (not frames.live or frames.name == "-"):
             what = "a pipe" if frames.name == "-" else "not live"
             raise ParameterError(f"--{name} {value}: {frames.name} is {what}: must be a camera or a stream")
+
+
+def listeners(frames: FrameSource, here: Screen | None = None) -> list[Listener]:
+    """Return who is told how the run fares: a service manager, and of a live source the words before the bar."""
+    service = find_service()
+    found: list[Listener] = [] if service is None else [service]
+    if frames.live and here is not None and here.describe is not None:
+        found.append(_Described(here.describe))
+    return found
+
+
+class _Described:
+    """Shows how the run fares, once a second."""
+
+    def __init__(self, describe: Say) -> None:
+        self._describe = describe
+        self._told_s = -math.inf
+
+    def beat(self, words: Callable[[], str], ready: bool) -> None:
+        now_s = time.monotonic()
+        if now_s - self._told_s >= 1.0:
+            self._told_s = now_s
+            self._describe(words())
+
+    def stop(self) -> None:
+        """The bar goes with the run."""
 
 
 def _seconds(option: str, text: str, allowed: str) -> float:

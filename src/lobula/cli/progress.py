@@ -12,10 +12,11 @@ Say = Callable[[str], None]
 
 
 class Screen(NamedTuple):
-    """``say`` writes a line; ``advance`` moves the bar by one, or is None where there is none."""
+    """``say`` writes a line; where there is a bar, ``advance`` moves it by one and ``describe`` puts words before it."""
 
     say: Say
     advance: Callable[[], None] | None
+    describe: Say | None = None
 
 
 def say(text: str) -> None:
@@ -33,10 +34,15 @@ def screen(total: int | None, what: str) -> Iterator[Screen]:
         yield Screen(say, None)
         return
     from rich.console import Console
+    from rich.markup import escape
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     console = Console(stderr=True, highlight=False)
     with Progress(*columns, console=console, transient=True) as progress:
         task = progress.add_task(what, total=total)
-        yield Screen(lambda text: console.print(text, markup=False), lambda: progress.advance(task))
+        yield Screen(
+            lambda text: console.print(text, markup=False),
+            lambda: progress.advance(task),
+            lambda text: progress.update(task, description=escape(text)),
+        )

@@ -149,7 +149,7 @@ def _watch(
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
-    from ..runtime.service import find_service
+    from .live import listeners
     from .narrator import Narrator
 
     # last: its summary knows what became of the files and the hooks
@@ -162,7 +162,13 @@ def _watch(
     outputs = Outputs(sinks, lambda text: here.say(f"lobula: {text}"))
     rate = None if turns is None else turns.at
     outcome = run_loop(
-        frames, network, outputs, header, yaw_rate_deg_s=rate, on_frame=here.advance, service=find_service()
+        frames,
+        network,
+        outputs,
+        header,
+        yaw_rate_deg_s=rate,
+        on_frame=here.advance,
+        listeners=listeners(frames, here),
     )
     for note in frames.notes[len(told) :]:
         here.say(f"lobula: {note}")

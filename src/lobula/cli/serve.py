@@ -135,7 +135,7 @@ def _watch(
     from ..runtime.loop import run as run_loop
     from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
-    from ..runtime.service import find_service
+    from .live import listeners
     from .narrator import Narrator
     from .progress import say
 
@@ -152,7 +152,7 @@ def _watch(
         sinks = [LiveSink(board, frames, network), NdjsonSink(sys.stdout) if json else Narrator(say)]
         outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
         rate = None if turns is None else turns.at
-        outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, service=find_service())
+        outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, listeners=listeners(frames))
         if outcome.message:
             say(f"lobula: {outcome.message}")
         return outcome.exit_code

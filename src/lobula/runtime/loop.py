@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from ..errors import LobulaError
@@ -12,7 +12,7 @@ from ..types import Frame
 from .events import Record
 from .interrupts import Interrupted, Interrupts
 from .outputs import Outputs
-from .service import Service
+from .service import Listener
 from .tally import FAILED, REFUSED, Tally
 from .watch import Stepper, Watch
 
@@ -35,7 +35,7 @@ def run(
     *,
     yaw_rate_deg_s: Callable[[float], float] | None = None,
     on_frame: Callable[[], None] | None = None,
-    service: Service | None = None,
+    listeners: Sequence[Listener] = (),
 ) -> Outcome:
     """Run ``network`` over ``source`` to its end and return the outcome.
 
@@ -44,7 +44,7 @@ def run(
     header : as ``run_header`` gives it; handed to every output
     yaw_rate_deg_s : gives the rate at which the camera itself turned at a frame's time, s
     on_frame : called after each frame, for a progress bar
-    service : is told how the run fares, also while the source is silent
+    listeners : are told how the run fares, also while the source is silent
 
     A source or an output that fails, Ctrl-C and SIGTERM end the run with a summary that says so; only a fault of
     lobula's own is raised, after the outputs were closed. Events go out before the frame they name is drawn.
@@ -55,8 +55,8 @@ def run(
             outputs.open(header)
             watch = Watch(source, network, tally, yaw_rate_deg_s)
             for frame in interrupts.between(_arrivals(source)):
-                if service is not None:
-                    service.beat(tally.words, ready=frame is not None)
+                for listener in listeners:
+                    listener.beat(tally.words, ready=frame is not None)
                 if frame is None:
                     outputs.events(watch.silence())
                     continue
@@ -76,8 +76,8 @@ def run(
             tally.end("crashed", 1, repr(error))
             raise
         finally:
-            if service is not None:
-                service.stop()
+            for listener in listeners:
+                listener.stop()
             outputs.events(tally.log.finish())
             outputs.close(tally.summary)
             source.close()

@@ -7,9 +7,20 @@ import socket
 import time
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from typing import Protocol
 
 BEAT_S = 1.0
 """How often the manager hears of the run, s; a watchdog should wait for several of these."""
+
+
+class Listener(Protocol):
+    """Whoever wants to hear how a run fares, and is quick about it."""
+
+    def beat(self, words: Callable[[], str], ready: bool) -> None:
+        """The run is alive; ``words()`` tells how it fares, ``ready`` says that a frame came."""
+
+    def stop(self) -> None:
+        """The run ends."""
 
 
 class Service:

@@ -84,10 +84,10 @@ class Tally:
     def words(self) -> str:
         """Return in one line how the run fares."""
         state = self.log.state.replace("_", " ")
-        text = f"{state}: {self.frames} frames, {self._source.dropped} dropped"
+        text = f"{state}; collisions {len(self.log.collisions)}, dropped {self._source.dropped}, lost {self._lost}"
         if self._latencies:
-            text += f", latency {1000 * self._latencies.median_s():.1f} ms (worst {1000 * self._latencies.worst_s:.0f})"
-        return f"{text}, {len(self.log.collisions)} collisions, lost {self._lost} times"
+            text += f"; latency {1000 * self._latencies.median_s():.1f} ms, worst {1000 * self._latencies.worst_s:.0f}"
+        return text
 
     def summary(self) -> Record:
         """Return the summary record as things stand."""
