@@ -12,7 +12,7 @@ Say = Callable[[str], None]
 
 
 class Screen(NamedTuple):
-    """``say`` writes a line; ``advance`` moves the bar by one, ``describe`` puts words before it: None without a bar."""
+    """``say`` writes a line; ``advance`` moves the bar by one, ``describe`` sets its words; both None without a bar."""
 
     say: Say
     advance: Callable[[], None] | None
