@@ -36,17 +36,33 @@ class Totals:
     chance_hit_rate: float | None
 
 
+def chance_hit_rate(scores: Sequence[ClipScore], rate_per_s: float | None = None) -> float | None:
+    """Return the share of the collisions that alarms at random times would hit; None where it cannot be told.
+
+    ``rate_per_s`` is that of the alarms; by default that of the false ones.
+    """
+    footage_s = math.fsum(s.footage_s for s in scores)
+    if rate_per_s is None and footage_s:
+        rate_per_s = sum(s.false_alarms for s in scores) / footage_s
+    windows_s = [s.window_s for s in scores if s.label.collision]
+    if rate_per_s is None or not windows_s:
+        return None
+    return statistics.fmean(-math.expm1(-rate_per_s * window_s) for window_s in windows_s)
+
+
+def skill(scores: Sequence[ClipScore]) -> float:
+    """Return the hit rate above that of as many alarms at random times: one number to choose by."""
+    hits = [s.hit for s in scores if s.label.collision]
+    return sum(hits) / max(1, len(hits)) - (chance_hit_rate(scores) or 0.0)
+
+
 def totals(scores: Sequence[ClipScore], rate_per_s: float | None = None) -> Totals:
     """Add ``scores`` up. ``rate_per_s`` of false alarms is used for the chance hit rate; by default the group's own."""
     with_collision = [s for s in scores if s.label.collision]
     leads_s = [s.lead_s for s in with_collision if s.lead_s is not None]
     false_alarms, footage_s = sum(s.false_alarms for s in scores), math.fsum(s.footage_s for s in scores)
     minutes = footage_s / 60
-    if rate_per_s is None and footage_s:
-        rate_per_s = false_alarms / footage_s
-    chance = None
-    if rate_per_s is not None and with_collision:
-        chance = statistics.fmean(-math.expm1(-rate_per_s * s.window_s) for s in with_collision)
+    chance = chance_hit_rate(scores, rate_per_s)
     low, high = garwood(false_alarms)
     return Totals(
         clips=len(scores),

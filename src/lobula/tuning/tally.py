@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple, Protocol, Self
 from ..arena.scoring import Score
 from ..errors import ParameterError
 from ..evaluate.scoring import ClipScore
-from ..evaluate.summary import totals
+from ..evaluate.summary import skill, totals
 
 
 class Objective(NamedTuple):
@@ -73,8 +73,7 @@ class FilmTally:
     @property
     def merit(self) -> float:
         """Hit rate above that of as many alarms at random times."""
-        found = totals(self.scores)
-        return found.hits / max(1, found.collisions) - (found.chance_hit_rate or 0.0)
+        return skill(self.scores)
 
     def as_dict(self) -> dict[str, Any]:
         """Return the totals, as ``lobula evaluate`` gives them."""
