@@ -118,9 +118,10 @@ class Page:
         assert "exceptionDetails" not in result, result["exceptionDetails"]
         return result["result"].get("value")
 
-    def until(self, expression: str, timeout_s: float = 40.0) -> Any:
-        """Wait until an expression is true."""
-        return _eventually(lambda: self.js(expression), timeout_s, expression)
+    def until(self, expression: str, timeout_s: float = 40.0) -> None:
+        """Wait until an expression is true; one that fails, as while the page is loaded anew, is not yet."""
+        careful = f"(() => {{ try {{ return !!({expression}) }} catch {{ return false }} }})()"
+        _eventually(lambda: self.js(careful), timeout_s, expression)
 
     def click(self, selector: str) -> None:
         self.js(f"document.querySelector({selector!r}).click()")

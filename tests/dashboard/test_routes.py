@@ -26,7 +26,7 @@ from .stage import Watcher, ask, toml
 
 FILES = [
     "app.js", "stream.js", "record.js", "ink.js", "traces.js", "picture.js", "timeline.js", "events.js", "settings.js",
-    "style.css", "theme.css", "icon.svg",
+    "words.js",     "style.css", "theme.css", "icon.svg",
 ]  # fmt: skip
 TOKEN = "correct horse battery"
 
@@ -77,7 +77,7 @@ class TestWhatThereIs:
         assert "frame-ancestors 'none'" in headers["content-security-policy"]
         assert headers["x-content-type-options"] == "nosniff"
         assert headers["x-frame-options"] == "DENY"
-        assert headers["referrer-policy"] == "no-referrer"
+        assert headers["referrer-policy"] == "same-origin"
         assert headers["cache-control"] == "no-store"
         assert "server" not in headers
         assert "access-control-allow-origin" not in headers

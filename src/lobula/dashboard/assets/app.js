@@ -8,6 +8,7 @@ import { makeSettings } from "./settings.js";
 import { connect } from "./stream.js";
 import { makeTimeline } from "./timeline.js";
 import { makeTraces } from "./traces.js";
+import { milliseconds } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const PAST = 0.75; // of the window lies before the moment shown, in a recording
@@ -153,8 +154,8 @@ function figures() {
     shown.push(["frames", record.length], ["collisions", collisions]);
     if (!status.complete) shown.push(["analysed", status.total ? `${Math.min(100, Math.round((100 * record.length) / status.total))} %` : "…"]);
   } else {
-    if (status.latency) shown.push(["latency, median", ms(status.latency.median)], ["latency, worst", ms(status.latency.worst)]);
-    if (status.work) shown.push(["network, median", ms(status.work.median)]);
+    if (status.latency) shown.push(["latency, median", milliseconds(status.latency.median)], ["latency, worst", milliseconds(status.latency.worst)]);
+    if (status.work) shown.push(["network, median", milliseconds(status.work.median)]);
     shown.push(["dropped", status.dropped ?? 0, (status.dropped ?? 0) > 0]);
     if (status.damaged) shown.push(["damaged", status.damaged, true]);
   }
@@ -169,8 +170,6 @@ function figures() {
     return box;
   }));
 }
-
-const ms = (value) => `${value < 10 ? value.toFixed(2) : value.toFixed(0)} ms`;
 
 /** Of the last two seconds, live; of all, in a recording. */
 function ratePerSecond() {

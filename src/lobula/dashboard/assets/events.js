@@ -1,5 +1,7 @@
 // What began and ended, newest first; in a recording a click goes there.
 
+import { potential } from "./words.js";
+
 const MOST = 200;
 
 /** `go(time)` is null where there is nowhere to go. */
@@ -48,7 +50,7 @@ function entry(item, named, neurons, go) {
     for (const { name, label } of neurons) {
       const value = document.createElement("span");
       value.className = name;
-      value.textContent = `${label} ${item[name].toFixed(2).replace(/^-0\.00$/, "0.00")}`;
+      value.textContent = `${label} ${potential(item[name])}`;
       values.append(value);
     }
     line.append(values);

@@ -1,6 +1,7 @@
 // Four potentials with their thresholds, spikes below each, scrolling; a threshold can be dragged with the mouse.
 
 import { ground, ink, paper, roundStep } from "./ink.js";
+import { potential } from "./words.js";
 
 const RASTER = 0.2, MARGIN = 3, NEAR_PX = 7;
 
@@ -49,7 +50,7 @@ export function makeTraces(root, neurons, moved) {
 function tell(shown, record, current) {
   if (current < 0) return;
   const value = record.potentials[4 * current + shown.number], count = record.spikes[4 * current + shown.number];
-  const text = (Math.trunc(+(value * 100).toFixed(6)) / 100 + 0).toFixed(2); // cut: 0.699 is below 0.70
+  const text = potential(value);
   if (shown.value.textContent !== text) shown.value.textContent = text;
   const spikes = count ? `×${count}` : "";
   if (shown.count.textContent !== spikes) shown.count.textContent = spikes;
@@ -92,7 +93,7 @@ function drawRow({ neuron, number, canvas, level }, record, from, to, place, sha
   context.textBaseline = "top";
   context.fillText(`${neuron.high}`, 4, 3);
   context.textBaseline = "bottom";
-  context.fillText(`${neuron.low}`.replace("-", "−"), 4, curve - 2);
+  context.fillText(`${neuron.low}`.replace("-", "\u2212"), 4, curve - 2);
 }
 
 function drawCurve(context, record, number, from, to, x, y, rest, colour, width) {
