@@ -1,0 +1,121 @@
+/* What the laptop's and the robot's lobula.h have in common: the settings and the reading. */
+#ifndef LOBULA_TYPES_H
+#define LOBULA_TYPES_H
+
+#include <stdint.h>
+
+/* Numbers of which there are a few in a step, not one a pixel: double, or float where the robot's processor has no
+ * doubles. Times are always double. */
+#if defined(LOBULA_ROBOT)
+typedef float lobula_real;
+#else
+typedef double lobula_real;
+#endif
+
+#define LOBULA_MAX_SPANS 8
+
+/* ---- Settings: the fields, names and units of the Python package, which documents each of them. -------------- */
+/* Numbers are all of one type: switches are 0 or 1, choices count from 0 in the order of the comment. */
+
+typedef struct {
+    lobula_real period_ms, change_exponent, max_gap_ms, repeats, repeat_hold_ms, repeat_mean_grey, repeat_max_grey;
+} lobula_clock_params;
+
+typedef struct {
+    lobula_real enabled, min_change_grey, min_coverage, trim, min_explained, min_gain, max_gain;
+} lobula_flash_params;
+
+typedef struct {
+    lobula_real enabled, limit_grey;
+} lobula_saturation_params;
+
+typedef struct {
+    lobula_real patch_px, floor_grey;
+} lobula_coarse_params;
+
+typedef struct {
+    lobula_real enabled, radius_px, sigma_px, surround, dead_zone_grey;
+} lobula_dog_params;
+
+typedef struct {
+    lobula_real residual;
+} lobula_on_off_params;
+
+typedef struct {
+    lobula_real enabled, rise_ms;
+} lobula_fdsr_params;
+
+typedef struct {
+    lobula_dog_params dog;
+    lobula_on_off_params on_off;
+    lobula_fdsr_params fdsr;
+} lobula_lamina_params;
+
+typedef struct {
+    lobula_real centre_weight, nearest_weight, diagonal_weight, centre_ms, nearest_ms, diagonal_ms, bias;
+} lobula_inhibition_params;
+
+typedef struct {
+    lobula_real enabled, threshold_grey, floor_grey, divisor;
+} lobula_grouping_params;
+
+typedef struct {
+    lobula_real enabled, tau_ms, growth;
+} lobula_sfa_params;
+
+typedef struct {
+    lobula_real gain, threshold;
+} lobula_spiking_params;
+
+typedef struct {
+    lobula_real reads; /* change, lamina */
+    lobula_inhibition_params on, off;
+    lobula_real neighbour_px, change_scale_grey, change_ms, on_gain, off_gain, product_gain;
+    lobula_grouping_params grouping;
+    lobula_real coarse_gain, coarse_on_weight;
+    lobula_real sigmoid_grey;
+    lobula_sfa_params sfa;
+    lobula_spiking_params spiking;
+} lobula_lgmd_params;
+
+typedef struct {
+    lobula_real spans; /* how many of the pairs below are in use */
+    lobula_real spans_px[LOBULA_MAX_SPANS], delays_ms[LOBULA_MAX_SPANS];
+} lobula_emd_params;
+
+typedef struct {
+    lobula_emd_params emd;
+    lobula_real sigmoid_grey2;
+    lobula_spiking_params spiking;
+} lobula_lptc_params;
+
+typedef struct {
+    lobula_real neurons; /* all, lgmds, lgmd2 */
+    lobula_real window_ms, collision_spikes, lptc_weight, end_ms, warm_up_ms, after_turn_ms;
+} lobula_decision_params;
+
+typedef struct {
+    lobula_clock_params clock;
+    lobula_flash_params flash;
+    lobula_saturation_params saturation;
+    lobula_coarse_params coarse;
+    lobula_lamina_params lamina;
+    lobula_lgmd_params lgmd1, lgmd2;
+    lobula_lptc_params lptc;
+    lobula_decision_params decision;
+} lobula_params;
+
+/* ---- What comes out. ------------------------------------------------------------------------------------------ */
+
+enum { LOBULA_STATE_OK, LOBULA_STATE_WARMING_UP, LOBULA_STATE_STALE, LOBULA_STATE_FLASH, LOBULA_STATE_TURNING };
+
+typedef struct {
+    double time_s;
+    lobula_real lgmd1, lgmd2;   /* membrane potentials in [0.5, 1) */
+    lobula_real lptc_r, lptc_l; /* in [0, 1) and (-1, 0] */
+    int32_t spikes[4];     /* lgmd1, lgmd2, lptc_r, lptc_l */
+    int32_t collision;     /* 0 or 1 */
+    int32_t state;         /* LOBULA_STATE_... */
+} lobula_reading;
+
+#endif
