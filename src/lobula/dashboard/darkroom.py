@@ -7,8 +7,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
+from ..frames.jpeg import Jpeg
 from ..frames.source import Decoded
-from ..report.live_jpeg import LiveJpeg
 from ..types import Image
 from .scene import MapScale, Scene, box_of
 
@@ -54,14 +54,14 @@ class Darkroom:
             self._changed.notify()
 
     def _work(self) -> None:
-        number, jpeg, scale = 0, LiveJpeg(), MapScale()
+        number, jpeg, scale = 0, Jpeg(), MapScale()
         while (shot := self._next()) is not None:
             begun_s = time.perf_counter()
             number += 1
             try:
                 picture = jpeg(shot.decoded)
             except Exception as error:  # nobody waits for this thread: the page says it, the detector goes on
-                picture, jpeg = b"", LiveJpeg()
+                picture, jpeg = b"", Jpeg()
                 self._tell(f"no picture: {error!r}")
             maps = {name: scale(name, image) for name, image in shot.maps.items()}
             box = box_of(shot.decoded.layout, *self._size)

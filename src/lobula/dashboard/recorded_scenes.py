@@ -7,7 +7,7 @@ from typing import Any
 
 from ..engine.network import Network
 from ..errors import LobulaError
-from ..report.live_jpeg import LiveJpeg
+from ..frames.jpeg import Jpeg
 from ..runtime.explanation import conditions_at
 from ..types import Frame
 from .analysis import CHECK_ROWS, Analysis, Pass
@@ -23,7 +23,7 @@ class RecordedScenes:
     def __init__(self, analysis: Analysis) -> None:
         self._analysis = analysis
         self._pictures, self._images = Cursor(analysis.recording), Cursor(analysis.recording)
-        self._jpeg, self._scale = LiveJpeg(), MapScale()
+        self._jpeg, self._scale = Jpeg(), MapScale()
         self._jpegs: OrderedDict[int, tuple[bytes, tuple[float, float, float, float]]] = OrderedDict()
         self._pass: Pass | None = None
         self._network: Network | None = None

@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError
+from ..frames.jpeg import Jpeg
 from ..runtime.sinks import Picture
 from ..types import Reading
-from .jpeg import thumbnail
 from .landing import whole_file, writing
 from .page_html import Event, Report, page_html
 from .trace import TraceWriter
@@ -17,6 +17,8 @@ from .trace_file import read_trace
 
 MAX_THUMBNAILS = 100
 """Events that get a picture, the first ones: keeps the page of a bad night small enough to open."""
+
+THUMBNAIL_PX = 320
 
 
 class ReportPage:
@@ -46,6 +48,7 @@ class ReportPage:
         self._started = False
         self._waiting: list[Event] = []  # events whose frame has not come yet
         self._newest: tuple[int, Picture | None] = (-1, None)
+        self._jpeg = Jpeg(THUMBNAIL_PX)
 
     def open(self, header: Mapping[str, Any]) -> None:
         """Start the trace."""
@@ -100,4 +103,4 @@ class ReportPage:
         if event.frame > index:
             self._waiting.append(event)
         elif event.frame == index and picture and sum(e.jpeg is not None for e in self._events) < MAX_THUMBNAILS:
-            event.jpeg = thumbnail(picture())
+            event.jpeg = self._jpeg(picture())
