@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from lobula import preset
-from lobula.arena.controls import NeverTurn
+from lobula.arena.controls import NeverTurn, RandomTurn
 from lobula.arena.events import event_table
 from lobula.arena.motion import STOP
 from lobula.arena.network_controller import NetworkController
@@ -16,6 +16,8 @@ from lobula.arena.simulation import Simulation
 from lobula.arena.snapshot import save_snapshot
 from lobula.arena.world import CameraParams, LightParams, Obstacle, RobotParams, World
 from lobula.errors import ParameterError
+from lobula.model.network import NetworkParams
+from lobula.params import with_settings
 
 from .stand_ins import PlainEye, Scripted, assert_same_table, world_of
 
@@ -73,6 +75,15 @@ def test_it_goes_through_a_file_unchanged(run: tuple[Record, list[Any]], tmp_pat
             np.testing.assert_array_equal(first, second, strict=True)
         else:
             assert first == second
+
+
+def test_it_tells_the_settings_of_what_drove_the_robots(run: tuple[Record, list[Any]], tmp_path: Path) -> None:
+    record, _ = run
+    record.save(tmp_path / "run.npz")
+    settings = load_record(tmp_path / "run.npz").settings
+    assert with_settings(NetworkParams(), settings, "record") == preset("published")
+    assert recorded(Simulation(WORLD, RandomTurn(7), 3), 1)[0].settings == {"rate_per_min": 7.0}
+    assert recorded(Simulation(WORLD, NeverTurn(), 3), 1)[0].settings is None
 
 
 def test_alarms_and_phases_belong_to_their_frames() -> None:

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from lobula import preset
 from lobula.arena import running
 from lobula.arena.controller import ControllerError
 from lobula.arena.controls import NeverTurn, RandomTurn
+from lobula.arena.network_controller import NetworkController
 from lobula.arena.running import Run, RunInterrupted, run
 from lobula.arena.snapshot import save_snapshot
 from lobula.arena.world import CameraParams, RobotParams, RoomParams, World
@@ -85,7 +87,7 @@ class TestWhole:
         assert whole.finished
         assert whole.minutes == pytest.approx(MINUTES)
         assert whole.robot_frames == 3 * TICKS
-        assert whole.controller == "RandomTurn"
+        assert whole.controller.startswith("RandomTurn ")
         assert set(whole.seconds) == {"eye", "network", "physics", "scoring"}
         assert whole.score.robot_minutes == pytest.approx(3 * MINUTES)
         assert whole.record is not None
@@ -199,8 +201,10 @@ class TestResume:
     def test_what_does_not_belong_together_is_refused(self, tmp_path: Path) -> None:
         path = tmp_path / "run.npz"
         go(minutes=0.05, checkpoint=path, record=False)
-        with pytest.raises(ParameterError, match="checkpoint of RandomTurn: must be resumed with that, not NeverTurn"):
+        with pytest.raises(ParameterError, match=r"checkpoint of RandomTurn .*: must be .* that, not NeverTurn$"):
             run(controller=NeverTurn(), resume=path)
+        with pytest.raises(ParameterError, match=r"not RandomTurn \w{12}: rate_per_min was 20\.0, is 30\.0$"):
+            run(controller=RandomTurn(30), resume=path)
         with pytest.raises(ParameterError, match="without a record"):
             run(controller=RandomTurn(20), resume=path, record=True)
         with pytest.raises(ParameterError, match="snapshot of seed 2: must be of 3"):
@@ -212,3 +216,11 @@ class TestResume:
             run(controller=RandomTurn(20), resume=tmp_path / "other.npz")
         with pytest.raises(ParameterError, match="cannot be read"):
             run(controller=RandomTurn(20), resume=tmp_path / "missing.npz")
+
+    def test_other_settings_of_the_network_are_refused_by_name(self, tmp_path: Path) -> None:
+        path = tmp_path / "run.npz"
+        first, second = preset("paper"), preset("paper", neurons="lgmd2")
+        run(SMALL, NetworkController(first), minutes=0.01, checkpoint=path)
+        with pytest.raises(ParameterError, match=r"not NetworkController .*: decision\.neurons was 'all', is"):
+            run(controller=NetworkController(second), minutes=0.02, resume=path)
+        assert run(controller=NetworkController(first), minutes=0.02, resume=path).finished

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import signal
 
 import av
@@ -26,7 +27,8 @@ def test_replay_film_and_picture_of_one_run(call, tmp_path):
     again = call("arena", "--replay", "r.npz", "--save", "again.mp4", "--robot", "3", "--start", "1", "--end", "1.5")
     assert again.code == 0
     assert frames_in(tmp_path / "again.mp4") == 15
-    call("arena", "--replay", "r.npz", "--save", "again.png")
+    told = json.loads(call("arena", "--replay", "r.npz", "--save", "again.png", "--json").out)
+    assert (told["driver"], told["robots"], told["minutes"]) == ("preset paper, neurons all", 4, 0.05)
     assert (tmp_path / "again.png").read_bytes() == (tmp_path / "r.png").read_bytes()
 
 
@@ -74,6 +76,8 @@ def test_refused_before_anything_runs(call, tmp_path, options, words):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
+        (("--preset", "lobula", "--save", "r.mp4"), "--preset lobula: a --replay holds its own run"),
+        (("--set", "decision.neurons=lgmd2", "--save", "r.mp4"), "--set decision.neurons=lgmd2: a --replay holds"),
         ((), "draws a run: must go with --save FILE.mp4 or --save FILE.png"),
         (("--save", "copy.npz"), "draws a run"),
         (("--save", "r.mp4"), "none.npz: cannot be read"),

@@ -11,6 +11,7 @@ from lobula.arena.events import event_table
 from lobula.arena.world import Obstacle, RobotParams, RoomParams, World
 from lobula.errors import OutputError, ParameterError
 from lobula.experiments import arena_film, arena_tale
+from lobula.params import to_dict, with_settings
 from lobula.report.arena_plan import ArenaPlan, Ground
 from lobula.report.arena_view import ArenaView
 
@@ -125,11 +126,16 @@ class TestTale:
         told = arena_tale.tell(replaced(record, world=round_world, poses=poses, events=event_table(rows)))
         assert told.marks.places_cm.tolist() == [[30.0, 45.0], [60.0, 30.0]]
 
-    def test_the_preset_is_found_by_its_hash(self, record):
+    def test_what_drove_the_robots_is_told_by_the_records_settings(self, record):
         assert arena_tale.tell(record).title == "3 robots, seed 5, preset paper, neurons all"
-        other = replaced(record, controller="NetworkController 0123456789ab")
+        assert preset("paper") == arena_tale.network_of(record)
+        own = with_settings(preset("paper"), {"lgmd2": {"spiking": {"threshold": 0.8}}}, "test")
+        other = replaced(record, controller="NetworkController 0123456789ab", settings=to_dict(own))
         assert arena_tale.tell(other).title == "3 robots, seed 5, NetworkController 0123456789ab"
-        assert preset("paper") == arena_tale.preset_of(record)[1]
+        assert arena_tale.tell_own(other, 0).thresholds["lgmd2"] == 0.8
+        unknown = replaced(record, controller="RandomTurn 0123456789ab", settings={"rate_per_min": 3.0})
+        assert arena_tale.tell(unknown).title == "3 robots, seed 5, RandomTurn 0123456789ab"
+        assert arena_tale.tell_own(unknown, 0).thresholds["lgmd2"] == 0.7
 
 
 class TestTopView:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import LobulaError
+from ..params import Params, to_dict
 
 Bools = NDArray[np.bool_]
 
@@ -34,7 +35,7 @@ class ControllerError(LobulaError, RuntimeError):
 
 
 class Controller(Protocol):
-    """What every controller does."""
+    """What every controller does. One with settings keeps them in an attribute ``params``, see ``settings_of``."""
 
     def start(self, robots: int, rng: np.random.Generator) -> None:
         """Make ready for a run with ``robots`` robots; all its chance should come from ``rng``."""
@@ -80,6 +81,15 @@ def can_replay(controller: Controller) -> TypeGuard[Replays]:
 def keeps_state(controller: Controller) -> TypeGuard[KeepsState]:
     """Whether the controller's state can be saved."""
     return isinstance(controller, KeepsState)
+
+
+def settings_of(controller: Controller) -> dict[str, Any] | None:
+    """Return the settings that the controller keeps in ``params``, as plain dictionaries; None where it has none.
+
+    Records hold them, and a run is resumed only with the same.
+    """
+    params = getattr(controller, "params", None)
+    return to_dict(params) if isinstance(params, Params) else None
 
 
 def require_controller(controller: Any) -> None:

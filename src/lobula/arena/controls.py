@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import ParameterError
+from ..params import Params, param
 from .controller import Bools
 
 
@@ -45,6 +46,13 @@ class AlwaysTurn(NeverTurn):
         return np.ones(len(times_s), np.bool_)
 
 
+@dataclass(frozen=True, kw_only=True)
+class RandomTurnParams(Params):
+    """The setting of ``RandomTurn``."""
+
+    rate_per_min: float = param(10.0, "1/min", "turns in a minute of driving", low=0, high=1e6, source="chosen")
+
+
 class RandomTurn:
     """Turns by chance, ``rate_per_min`` times in a minute of driving on average (times at which it turns do not count).
 
@@ -52,13 +60,11 @@ class RandomTurn:
 
     Raises
     ------
-    ParameterError : a rate below 0
+    ParameterError : a rate that is no number, below 0 or above a million
     """
 
     def __init__(self, rate_per_min: float) -> None:
-        if not 0 <= rate_per_min < math.inf:
-            raise ParameterError(f"RandomTurn: rate_per_min = {rate_per_min!r}: must be at least 0")
-        self.rate_per_min = rate_per_min
+        self.params = RandomTurnParams(rate_per_min=rate_per_min)
 
     def start(self, robots: int, rng: np.random.Generator) -> None:
         """Give each robot its own chance."""
@@ -93,4 +99,4 @@ class RandomTurn:
 
     def _chance(self, last_s: float | None, time_s: float) -> float:
         """Return the chance of a turn in the time since the last picture."""
-        return 0.0 if last_s is None else -math.expm1(-self.rate_per_min * (time_s - last_s) / 60)
+        return 0.0 if last_s is None else -math.expm1(-self.params.rate_per_min * (time_s - last_s) / 60)

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..errors import ParameterError
 from .chance import Chance
+from .controller import settings_of
 from .eye import Eye
 from .scene import build_scene
 from .simulation import Simulation, Tick
@@ -23,6 +24,7 @@ from .world import World
 from .world_file import parse_world, world_toml
 
 COLUMNS = ("poses", "phases", "alarms", "light", "potentials")
+PLAIN = ("seed", "controller", "settings", "speeds_cm_s", "events")
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,7 +32,8 @@ class Record:
     """T frames of R robots.
 
     world, seed : what the run was made from
-    controller : what drove the robots, in words
+    controller : what drove the robots, in words, with the hash of its settings
+    settings : those settings, nested as ``params.to_dict`` gives them; None where the controller told of none
     poses : (T, R, 3) x, y in cm and heading in rad at each frame
     phases : (T, R) int8, FORWARD, STOP or TURN of ``motion``
     alarms : (T, R) bool, avoidances that began with this frame
@@ -43,6 +46,7 @@ class Record:
     world: World
     seed: int
     controller: str
+    settings: Mapping[str, Any] | None
     poses: NDArray[np.float64]
     phases: NDArray[np.int8]
     alarms: NDArray[np.bool_]
@@ -81,7 +85,7 @@ class Record:
         ------
         OutputError : it cannot be written
         """
-        tree = {name: getattr(self, name) for name in (*COLUMNS, "speeds_cm_s", "events", "seed", "controller")}
+        tree = {name: getattr(self, name) for name in (*COLUMNS, *PLAIN)}
         save_snapshot(path, {**tree, "world": world_toml(self.world)}, compressed=True)
 
 
@@ -130,7 +134,8 @@ class Recorder:
         if np.isnan(columns["potentials"]).all():
             columns["potentials"] = None
         return Record(
-            world=simulation.world, seed=simulation.seed, controller=controller, events=events,
+            world=simulation.world, seed=simulation.seed, controller=controller,
+            settings=settings_of(simulation.controller), events=events,
             speeds_cm_s=np.array(simulation.motion.speeds_cm_s), **columns,
         )  # fmt: skip
 

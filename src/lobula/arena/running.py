@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..errors import OutputError, ParameterError
 from ..params import Params, settings_hash
 from ..runtime.interrupts import Interrupted, Interrupts
-from .controller import Controller, ControllerError, keeps_state
+from .controller import Controller, ControllerError, keeps_state, settings_of
 from .each_robot import EachRobot
 from .network_controller import NetworkController
 from .record import Record, Recorder
@@ -186,6 +186,7 @@ class Course:
             "seed": int(self.simulation.seed),
             "minutes": self.minutes,
             "controller": self.controller,
+            "settings": settings_of(self.simulation.controller),
             "simulation": self.simulation.snapshot(),
             "scorer": self.scorer.state(),
             "record": self.recorder.state() if self.recorder else None,
@@ -205,8 +206,9 @@ class Course:
         ParameterError : it is of another world, seed or controller, or without the record that is asked for
         """
         if kept["controller"] != self.controller:
+            differing = _first_difference(kept.get("settings") or {}, settings_of(self.simulation.controller) or {})
             raise ParameterError(
-                f"checkpoint of {kept['controller']}: must be resumed with that, not {self.controller}"
+                f"checkpoint of {kept['controller']}: must be resumed with that, not {self.controller}{differing}"
             )
         if self.recorder and kept["record"] is None:
             raise ParameterError("checkpoint without a record: must be resumed without one")
@@ -246,3 +248,15 @@ def _in_words(controller: Controller) -> str:
     params = getattr(controller, "params", None)
     name = controller.name if isinstance(controller, EachRobot) else type(controller).__name__
     return name + (f" {settings_hash(params)}" if isinstance(params, Params) else "")
+
+
+def _first_difference(kept: Mapping[str, Any], own: Mapping[str, Any], where: str = "") -> str:
+    """Return the end of a message: the first setting of both that differs; nothing where there is none."""
+    for name in (name for name in kept if name in own):
+        before, now = kept[name], own[name]
+        if isinstance(before, Mapping) and isinstance(now, Mapping):
+            if found := _first_difference(before, now, f"{where}{name}."):
+                return found
+        elif before != now:
+            return f": {where}{name} was {before!r}, is {now!r}"
+    return ""

@@ -86,12 +86,12 @@ def arena(
                 {"world file": world, "settings file": config, "replay": replay},
             )
         chosen = choose(preset, neurons, config, settings or (), sensitivity)
-        shown = Shown(robot, start, end, speed, chosen.params)
+        shown = Shown(robot, start, end, speed)
         if replay is not None:
-            _refuse({"--robots": robots, "--minutes": minutes, "--seed": seed, "--world": world,
-                     "--checkpoint": checkpoint, "--events": events})  # fmt: skip
-            preset_known = all(given is None for given in (preset, neurons, config, settings, sensitivity))
-            return _replay(replay, saves, shown._replace(params=None) if preset_known else shown, json)
+            _refuse({"--robots": robots, "--minutes": minutes, "--seed": seed, "--world": world, "--preset": preset,
+                     "--neurons": neurons, "--config": config, "--set": settings and " ".join(settings),
+                     "--sensitivity": sensitivity, "--checkpoint": checkpoint, "--events": events})  # fmt: skip
+            return _replay(replay, saves, shown, json)
         there = None if world is None else load_world(world)
         kept = load_snapshot(checkpoint) if checkpoint is not None and checkpoint.exists() else None
         request: dict[str, Any] = {
@@ -186,6 +186,8 @@ def _refuse(given: dict[str, Any]) -> None:
 def _replay(path: Path, saves: list[Path], shown: Shown, json: bool) -> int:
     """Draw a saved run."""
     from ..arena.record import load_record
+    from ..experiments.arena_tale import driver_of
+    from ..params import settings_hash
     from .arena_saves import REPLAY, check_saves, write_saves
     from .print_json import print_json
     from .progress import say
@@ -197,7 +199,11 @@ def _replay(path: Path, saves: list[Path], shown: Shown, json: bool) -> int:
     check_saves(saves, shown, count, frames, record.world.camera.rate_hz)
     said = write_saves(record, saves, shown)
     if json:
-        print_json({"version": __version__, "replay": str(path), "seed": record.seed, **said})
+        print_json({
+            "version": __version__, "replay": str(path), "controller": record.controller, "driver": driver_of(record),
+            "world_hash": settings_hash(record.world), "seed": record.seed, "robots": count,
+            "minutes": round(frames / record.world.camera.rate_hz / 60, 6), **said,
+        })  # fmt: skip
     else:
-        say(f"{', '.join(said['saved'])}: {counted(count, 'robot')}, seed {record.seed}")
+        say(f"{', '.join(said['saved'])}: {counted(count, 'robot')}, seed {record.seed}, {driver_of(record)}")
     return 0

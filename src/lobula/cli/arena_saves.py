@@ -12,20 +12,18 @@ from .progress import screen
 
 if TYPE_CHECKING:
     from ..arena.record import Record
-    from ..model.network import NetworkParams
 
 REPLAY, FILM, PICTURE = SAVED_AS = (".npz", ".mp4", ".png")
 """What --save can write."""
 
 
 class Shown(NamedTuple):
-    """What a film or picture shows: whose view, which part of the run, how fast; and whose thresholds."""
+    """What a film or picture shows: whose view, which part of the run, how fast."""
 
     robot: int | None
     start_s: float | None
     end_s: float | None
     speed: float | None
-    params: NetworkParams | None = None
 
 
 def check_saves(saves: Sequence[Path], shown: Shown, robots: int, frames: int, rate_hz: float) -> None:
@@ -82,5 +80,5 @@ def _film(record: Record, path: Path, shown: Shown) -> dict[str, Any]:
     part: dict[str, Any] = {"start_s": shown.start_s, "end_s": shown.end_s, "speed": shown.speed}
     pictures, _ = frames_of(len(record.poses), record.world.camera.rate_hz, **part)
     with screen(len(pictures), "pictures of the film") as here:
-        film = save_film(record, path, robot=shown.robot or 0, params=shown.params, advance=here.advance, **part)
+        film = save_film(record, path, robot=shown.robot or 0, advance=here.advance, **part)
     return {"frames": film.frames, "duration_s": round(film.duration_s, 3), "speed": film.speed}

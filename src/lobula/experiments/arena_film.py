@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from ..arena.record import Record
 from ..errors import ParameterError
-from ..model.network import NetworkParams
 from ..report.arena_video import ArenaVideo, write_still
 from ..runtime.interrupts import Interrupts
 from .arena_tale import tell, tell_own
@@ -36,7 +35,7 @@ class Film(NamedTuple):
 
 def save_film(
     record: Record, path: str | Path, *, robot: int = 0, start_s: float | None = None, end_s: float | None = None,
-    speed: float | None = None, params: NetworkParams | None = None, advance: Callable[[], None] | None = None,
+    speed: float | None = None, advance: Callable[[], None] | None = None,
 ) -> Film:  # fmt: skip
     """Write ``path``, an MP4 that browsers play: the arena from above, and the view and potentials of ``robot``.
 
@@ -44,8 +43,6 @@ def save_film(
     ----------
     start_s, end_s : the part of the run to show; all of it
     speed : times as fast as the run; 1, or the power of two that makes a long run a film of three minutes at most
-    params : settings of the network, for thresholds and spikes; found among the presets where nothing is given. With
-        other settings the thresholds are the paper's
     advance : called after each picture
 
     Raises
@@ -62,7 +59,7 @@ def save_film(
         raise ParameterError(f"robot {robot}: must be one of 0..{robots - 1}")
     rate_hz = record.world.camera.rate_hz
     frames, speed = frames_of(len(record.poses), rate_hz, start_s=start_s, end_s=end_s, speed=speed)
-    own = tell_own(record, robot, params)
+    own = tell_own(record, robot)
     fps = rate_hz * speed / frames.step
     about = {"seed": record.seed, "controller": record.controller, "robot": robot, "speed": speed}
     video = ArenaVideo(path, tell(record), own, speed=speed, fps=fps, about=about)

@@ -20,7 +20,7 @@ from ..arena.world import World
 from ..model.network import NetworkParams
 from ..model.neurons.spiking import SpikingParams, spike_count
 from ..model.presets import NAMES, NEURONS, preset
-from ..params import settings_hash
+from ..params import to_dict, with_settings
 from ..report.arena_marks import Marks
 from ..report.arena_plan import ArenaPlan
 from ..report.arena_video import Line, Own, Tale
@@ -47,19 +47,31 @@ def tell(record: Record, part: range | None = None) -> Tale:
         pupil_cm=world.camera.ahead_cm,
         fov_deg=world.camera.fov_deg,
     )
-    robots, known = record.poses.shape[1], preset_of(record)
-    title = f"{robots} robot{'s' * (robots > 1)}, seed {record.seed}, {known[0] if known else record.controller}"
+    robots = record.poses.shape[1]
+    title = f"{robots} robot{'s' * (robots > 1)}, seed {record.seed}, {driver_of(record)}"
     return Tale(plan, course, _marks(record, events, part.start), title, _scores(events))
 
 
-def preset_of(record: Record) -> tuple[str, NetworkParams] | None:
-    """Return the preset the controller's hash belongs to, in words too; None for all else."""
-    name, _, found = record.controller.partition(" ")
+def network_of(record: Record) -> NetworkParams | None:
+    """Return the settings of the networks that drove the robots; None where something else did.
+
+    Raises
+    ------
+    ParameterError : settings that this version does not know
+    """
+    plain = NetworkParams()
+    if record.settings is None or record.settings.keys() != to_dict(plain).keys():
+        return None
+    params: NetworkParams = with_settings(plain, record.settings, "record")
+    return params
+
+
+def driver_of(record: Record) -> str:
+    """Return what drove the robots in words: the preset, where the settings are one's, else the controller."""
     for base, neurons in product(reversed(NAMES), NEURONS):
-        params = preset(base, neurons=neurons)
-        if name == "NetworkController" and settings_hash(params) == found:
-            return f"preset {base}, neurons {neurons}", params
-    return None
+        if record.settings == to_dict(preset(base, neurons=neurons)):
+            return f"preset {base}, neurons {neurons}"
+    return record.controller
 
 
 def _alarms(record: Record) -> NDArray[np.bool_]:
@@ -70,9 +82,9 @@ def _alarms(record: Record) -> NDArray[np.bool_]:
     return held
 
 
-def tell_own(record: Record, robot: int, params: NetworkParams | None = None) -> Own:
-    """Return what a film shows of ``robot``; ``params`` as ``save_film`` has it."""
-    params = params or (preset_of(record) or ("", None))[1]
+def tell_own(record: Record, robot: int) -> Own:
+    """Return what a film shows of ``robot``: its potentials with the thresholds of its network, else the paper's."""
+    params = network_of(record)
     return Own(robot, _readings(record, robot, params), thresholds(params or preset("paper")), _log(record, robot))
 
 
