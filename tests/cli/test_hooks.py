@@ -12,6 +12,8 @@ from pathlib import Path
 
 import pytest
 
+from ..frames.clips import moving_bar
+from ..frames.web_camera import WebCamera
 from ..hooks.listeners import LineServer, free_port
 from ..hooks.office import wait_until
 
@@ -97,6 +99,31 @@ def test_the_reader_leaves_and_the_hook_still_gets_everything(spawn, clip, tmp_p
     _, err = process.communicate(timeout=60)
     assert (process.returncode, err) == (0, "")
     assert lines(tmp_path / "out")[-1]["frames"] == 91
+
+
+def test_trouble_is_told_while_the_camera_is_silent(spawn):
+    server = LineServer()
+    pictures = moving_bar(40, 128, 96)
+    with WebCamera(lambda number: pictures[number % 40]) as camera:
+        process = spawn("run", camera.address, "--json", "--hook", f"tcp:127.0.0.1:{server.at[1]}")
+        wait_until(lambda: server.records and len(server.records[0]) > 2)
+        camera.mode = "silent"
+        server.close()
+
+        def next_of_hook():
+            return next(r for r in map(json.loads, process.stdout) if r["type"] == "hook")
+
+        trouble = next_of_hook()  # the state "stale" finds nobody
+        server = LineServer(server.at)
+        over = next_of_hook()
+        assert camera.mode == "silent"
+        process.send_signal(signal.SIGINT)
+        out, _ = process.communicate(timeout=60)
+    server.close()
+    assert (trouble["phase"], over["phase"], over["frame"]) == ("start", "end", trouble["frame"])
+    assert over["time_s"] > trouble["time_s"]
+    assert process.returncode == 130
+    assert json.loads(out.splitlines()[-1])["hooks"][0]["dropped"] == 0
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

@@ -22,6 +22,7 @@ from lobula.report.trace_file import read_trace
 pytest.importorskip("uvicorn", reason="the extra dashboard is not installed")
 
 from ..dashboard.stage import Watcher
+from ..hooks.listeners import free_port
 
 
 class Served:
@@ -151,6 +152,35 @@ class TestAPipe:
         assert "collision" in kinds
         assert records[-1]["frames"] == len(movie)
 
+    def test_hooks_get_what_they_get_of_run_and_the_page_hears_of_their_trouble(self, spawn, movie, tmp_path):
+        raw = ("-", "--pixel-format", "gray8", "--input-size", "99x72", "--rate", 30)
+        dead = f"tcp:127.0.0.1:{free_port()}"
+        hooks = ("--hook", "ndjson:out.ndjson", "--hook", dead, "--hook-rate", 10)
+        process = spawn("serve", *raw, *hooks, "--json", "--port", 0, stdin=subprocess.PIPE, text=False)
+        pictures = movie.images.tobytes()
+        process.stdin.write(pictures[: len(pictures) // 2])
+        process.stdin.flush()
+        served = Served(process)
+        with Watcher(served) as watcher:
+            writer = threading.Thread(target=process.stdin.write, args=[pictures[len(pictures) // 2 :]])
+            writer.start()
+            told = watcher.until(lambda m: any(e["type"] == "hook" for e in m.head.get("events", ())))
+        writer.join(20)
+        process.stdin.close()
+        process.stdin = None  # or its end would close it again
+        records = [json.loads(line) for line in process.stdout]
+        process.wait(30)
+        (trouble,) = [e for e in told.head["events"] if e["type"] == "hook"]
+        assert (trouble["hook"], trouble["phase"], trouble["problem"]) == (dead, "start", "Connection refused")
+        assert (process.returncode, trouble in records) == (0, True)
+        assert [(h["hook"], h["sent"] > 0) for h in records[-1]["hooks"]] == [
+            ("ndjson:out.ndjson", True), (dead, False),
+        ]  # fmt: skip
+        got = [json.loads(line) for line in (tmp_path / "out.ndjson").read_text().splitlines()]
+        assert [r["frame"] for r in got if r["type"] == "reading"] == list(range(0, len(movie), 3))
+        kinds = [(r["type"], r.get("phase")) for r in records if r["type"] != "hook"]
+        assert [(r["type"], r.get("phase")) for r in got if r["type"] != "reading"] == kinds
+
 
 class TestBadInput:
     @pytest.mark.parametrize(
@@ -173,6 +203,11 @@ class TestBadInput:
             (["clip", "--engine", "gpu"], "engine 'gpu': must be one of"),
             (["clip", "--reconnect", "never"], "--reconnect never: "),
             (["clip", "--timeout", "3"], "is not live: must be a camera or a stream"),
+            (["clip", "--hook", "tcp:h:1"], "--hook tcp:h:1: "),
+            (["clip", "--hook", "ndjson:out"], "is replayed: must be a camera, an address or a pipe; lobula run has"),
+            (["empty.csv", "--hook", "tcp:h:1"], "--hook tcp:h:1: empty.csv is replayed: must be a camera, an address"),
+            (["clip", "--hook-rate", "3"], "--hook-rate 3: must have a --hook to go with"),
+            (["-", "--hook", "ndjson:no/out"], "cannot write no/out: no such folder no"),
         ],
     )
     def test_one_line_says_what_is_wrong(self, call, clip, tmp_path, arguments, says):

@@ -48,6 +48,21 @@ def test_trouble_is_a_record_with_the_frame_at_which_it_is_told():
     ]
 
 
+def test_news_is_told_while_no_frame_comes_to_the_reader_and_who_else_wants_it():
+    reader, page, hook = Reader(), [], Scripted(plan=[RefusedError("no")])
+    office = opened(hook)
+    telling = Telling(reader, office, also=page.append)
+    telling.frame(4, reading(0.1333333333), None)
+    office.event(START)
+    wait_until(lambda: office.tallies()[0]["failures"])
+    telling.silence(4, 7.25)
+    telling.silence(4, 7.35)
+    told = {"type": "hook", "hook": "scripted", "phase": "start", "problem": "no", "frame": 4, "time_s": 7.25}
+    assert reader.calls == [("frame", 4), ("event", told)]
+    assert page == [told]
+    office.close(SUMMARY)
+
+
 def test_a_refused_run_has_a_summary_alone():
     reader, office = Reader(), PostOffice([Scripted()])
     refused = {"type": "summary", "status": "refused", "frames": 0}

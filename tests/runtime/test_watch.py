@@ -11,6 +11,7 @@ from lobula.frames import open as open_frames
 from lobula.frames.reconnect import News
 from lobula.runtime import tally, watch
 from lobula.runtime.loop import run
+from lobula.runtime.ndjson import ReaderGoneError
 from lobula.runtime.outputs import Outputs
 
 from .readings import Clock, LiveSource, Network, Sink, frames
@@ -48,6 +49,33 @@ def test_a_silent_camera_is_stale_until_it_speaks(monkeypatch):
     assert records[0]["time_s"] == pytest.approx(29 / 30 + 1.1, abs=0.11)  # told a tenth of a second late at most
     assert network.resets == 1
     assert (outcome.summary["frames"], outcome.summary["dropped"], outcome.exit_code) == (60, 2, 0)
+
+
+def test_a_sink_that_is_awake_hears_of_silence_with_the_time_of_the_source(monkeypatch):
+    class Awake(Sink):
+        heard = ()
+
+        def silence(self, index, time_s):
+            self.heard = (*self.heard, (index, pytest.approx(time_s)))
+            self._called("silence")
+
+    clock = Clock()
+    for module in (watch, tally):
+        monkeypatch.setattr(module, "time", clock)
+    awake, failing, asleep = Awake(), Awake(fails=("silence",)), Sink()
+    outcome, _ = outcome_of(LiveSource([*frames(4), 0.25, 0.5, *frames(1, first=40)], clock), [awake, failing, asleep])
+    assert awake.heard == ((3, 0.1 + 0.25), (3, 0.1 + 0.75))
+    assert failing.calls.count("silence") == 1
+    assert (outcome.summary["status"], asleep.calls.count("frame")) == ("output_failed", 5)
+
+
+def test_a_live_run_that_nobody_listens_to_ends_in_silence_too(monkeypatch):
+    clock, gone = Clock(), Sink(fails=("event",), error=ReaderGoneError)
+    for module in (watch, tally):
+        monkeypatch.setattr(module, "time", clock)
+    source = LiveSource([*frames(1), 2.0, *frames(10, first=70)], clock)  # stale, so there is something to tell
+    outcome, _ = outcome_of(source, [gone])
+    assert (outcome.exit_code, outcome.summary["frames"]) == (0, 1)
 
 
 def test_a_short_silence_is_nothing(monkeypatch):

@@ -1,15 +1,30 @@
-"""The hooks of a run, from what was typed after ``--hook``."""
+"""The hooks of a run: what is typed for them, how they are made, and where they stand among its outputs."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
 
 from ..errors import ParameterError
 
 if TYPE_CHECKING:
     from ..hooks import Hook
+    from ..runtime.events import Record
+    from ..runtime.sinks import Sink
+
+HookTargets = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--hook", metavar="TARGET", help="where events go: tcp:HOST:PORT, mqtt://HOST/TOPIC, ...; may be repeated"
+    ),
+]
+HookRate = Annotated[
+    float | None, typer.Option(metavar="HZ", help="readings a second to hooks that carry them; 0 for events alone")
+]
 
 
 def make_hooks(targets: Sequence[str], readings_hz: float | None) -> list[Hook]:
@@ -38,3 +53,20 @@ def make_hooks(targets: Sequence[str], readings_hz: float | None) -> list[Hook]:
         names = ", ".join(hook.name for hook in hooks)
         raise ParameterError(f"--hook-rate {readings_hz:g}: must have a hook that carries readings, {names} does not")
     return hooks
+
+
+def hook_files(hooks: Sequence[Hook]) -> dict[str, Path | None]:
+    """Return what the hooks write, for ``check_files``."""
+    return {f"hook {number}": hook.path for number, hook in enumerate(hooks, 1)}
+
+
+def with_hooks(
+    reader: Sink, hooks: Sequence[Hook], readings_hz: float | None, also: Callable[[Record], None] | None = None
+) -> list[Sink]:
+    """Return the hooks and the reader of the run, who is told how they fare, as sinks; ``also`` hears of that too."""
+    if not hooks:
+        return [reader]
+    from ..hooks import PostOffice, Telling
+
+    office = PostOffice(hooks, readings_hz)
+    return [office, Telling(reader, office, also)]

@@ -12,6 +12,7 @@ import typer
 from ..errors import LobulaError, OutputError, ParameterError
 from . import options as o
 from .call import new_app
+from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
 from .progress import Screen, screen
 
 if TYPE_CHECKING:
@@ -42,13 +43,8 @@ def run(
     keep_after: Annotated[
         float | None, typer.Option(metavar="S", help="a clip's seconds after its alarm; 3 if left out")
     ] = None,
-    hook: Annotated[
-        list[str] | None,
-        typer.Option(metavar="TARGET", help="where events go: tcp:HOST:PORT, mqtt://HOST/TOPIC, ...; may be repeated"),
-    ] = None,
-    hook_rate: Annotated[
-        float | None, typer.Option(metavar="HZ", help="readings a second to hooks that carry them; 0 for events alone")
-    ] = None,
+    hook: HookTargets = None,
+    hook_rate: HookRate = None,
     preset: o.Preset = None,
     neurons: o.Neurons = None,
     config: o.Config = None,
@@ -88,7 +84,6 @@ def run(
     from ..runtime.tally import unbegun_summary
     from ..runtime.yaw import read_yaw
     from .destinations import check_files, check_folder
-    from .hooks import make_hooks
     from .live import live_options, require_live
     from .settings import choose
 
@@ -99,8 +94,7 @@ def run(
         network = Network(params, engine=engine)
         turns = None if yaw is None else read_yaw(yaw)
         hooks = make_hooks(hook or (), hook_rate)
-        outputs = {"--trace": trace, "--annotate": annotate, "--record": record}
-        outputs |= {f"hook {number}": one.path for number, one in enumerate(hooks, 1)}
+        outputs = {"--trace": trace, "--annotate": annotate, "--record": record} | hook_files(hooks)
         if report is not None:
             check_folder("--report", report)
             outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
@@ -154,7 +148,7 @@ def _watch(
 
     # last: its summary knows what became of the files and the hooks
     reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(here.say)
-    sinks = [*files, *_with_hooks(reader, hooks, hook_rate)]
+    sinks = [*files, *with_hooks(reader, hooks, hook_rate)]
     header = run_header(frames, params, preset=preset, engine=network.engine)
     told = frames.notes
     for note in told:
@@ -175,15 +169,6 @@ def _watch(
     if outcome.message:
         here.say(f"lobula: {outcome.message}")
     return outcome.exit_code
-
-
-def _with_hooks(reader: Sink, hooks: list[Hook], readings_hz: float | None) -> list[Sink]:
-    if not hooks:
-        return [reader]
-    from ..hooks import PostOffice, Telling
-
-    office = PostOffice(hooks, readings_hz)
-    return [office, Telling(reader, office)]
 
 
 def _file_sinks(trace: Path | None, annotate: Path | None, record: Path | None, report: Path | None) -> list[Sink]:

@@ -14,13 +14,16 @@ import typer
 from ..errors import ParameterError
 from . import options as o
 from .call import new_app
+from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
 
 if TYPE_CHECKING:
     from ..dashboard.board import Board
     from ..dashboard.live_settings import LiveSettings
     from ..dashboard.server import Site
     from ..frames import FrameSource
+    from ..hooks import Hook
     from ..model.network import NetworkParams
+    from ..runtime.sinks import Sink
     from ..runtime.yaw import YawRecord
 
 app = new_app()
@@ -52,6 +55,8 @@ def serve(
         list[str] | None,
         typer.Option(metavar="NAME", help="another name the page is reached by, as behind a proxy; may be repeated"),
     ] = None,
+    hook: HookTargets = None,
+    hook_rate: HookRate = None,
     preset: o.Preset = None,
     neurons: o.Neurons = None,
     config: o.Config = None,
@@ -87,6 +92,7 @@ def serve(
     from ..report.trace_file import TRACE_SUFFIXES
     from ..runtime.opening import open as open_frames
     from ..runtime.yaw import read_yaw
+    from .destinations import check_files
     from .live import live_options, require_live
     from .settings import choose
 
@@ -97,7 +103,9 @@ def serve(
         )  # fmt: skip
 
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
+    hooks = make_hooks(hook or (), hook_rate)
     if Path(source).suffix.lower() in TRACE_SUFFIXES:
+        _refuse_hooks(hooks, source)
         return _show_trace(Path(source), site, json)
     view = o.view(size, fit, roi, mask, flip, rotate)
     params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
@@ -111,19 +119,22 @@ def serve(
             **live_options(reconnect, timeout),
         )  # fmt: skip
 
+    read = {"source": source, "mask": mask, "yaw file": yaw, "settings file": config}
+    check_files(hook_files(hooks), read)
     live = LiveSettings(params, chosen.preset)
     with opened(start, max_frames) as frames:
         require_live(frames, reconnect=reconnect, timeout=timeout)
         if turns is not None and frames.live:
             raise ParameterError(f"--yaw {yaw}: {frames.name} is live: must be a recording, whose times are known")
         if frames.live or source == "-":
-            return _watch(frames, live, engine, turns, site, json)
+            return _watch(frames, live, engine, turns, hooks, hook_rate, site, json)
+        _refuse_hooks(hooks, frames.name)
         return _replay(frames, lambda start_s: opened(start_s, None), live, engine, turns, site, json)
 
 
 def _watch(
-    frames: FrameSource, settings: LiveSettings, engine: str, turns: YawRecord | None, make: Callable[[Board], Site],
-    json: bool,
+    frames: FrameSource, settings: LiveSettings, engine: str, turns: YawRecord | None, hooks: list[Hook],
+    hook_rate: float | None, make: Callable[[Board], Site], json: bool,
 ) -> int:  # fmt: skip
     """Run the live loop with the page as one of its outputs."""
     from ..dashboard.about import about_run
@@ -149,7 +160,8 @@ def _watch(
         _announce(site, "live", frames.name, json)
         for note in frames.notes:
             say(f"lobula: {note}")
-        sinks = [LiveSink(board, frames, network), NdjsonSink(sys.stdout) if json else Narrator(say)]
+        reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(say)
+        sinks = [LiveSink(board, frames, network), *with_hooks(reader, hooks, hook_rate, also=board.add_event)]
         outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
         rate = None if turns is None else turns.at
         outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, listeners=listeners(frames))
@@ -201,6 +213,14 @@ def _show_trace(path: Path, make: Callable[[Board], Site], json: bool) -> int:
         _announce(site, "trace", str(path), json)
         threading.Event().wait()
     return 0
+
+
+def _refuse_hooks(hooks: list[Hook], name: str) -> None:
+    if hooks:
+        raise ParameterError(
+            f"--hook {hooks[0].name}: {name} is replayed: must be a camera, an address or a pipe; "
+            "lobula run has hooks for recordings"
+        )
 
 
 def _announce(site: Site, mode: str, name: str, json: bool) -> None:

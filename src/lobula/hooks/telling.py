@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
+from ..runtime.events import Record
 from ..runtime.sinks import Picture, Sink
 from ..types import Reading
 from .office import PostOffice
@@ -13,13 +14,14 @@ from .office import PostOffice
 class Telling:
     """``reader``, a sink, with the news of ``office`` put between what it is given.
 
-    A hook's record has the ``frame`` and ``time_s`` at which it is told. Close it after the office, whose counts are
-    final only then.
+    A hook's record has the ``frame`` and ``time_s`` at which it is told, also while the source is silent; ``also`` is
+    given it as well. Close it after the office, whose counts are final only then.
     """
 
-    def __init__(self, reader: Sink, office: PostOffice) -> None:
+    def __init__(self, reader: Sink, office: PostOffice, also: Callable[[Record], None] | None = None) -> None:
         self._reader = reader
         self._office = office
+        self._also = also
         self._at: dict[str, Any] = {"frame": 0, "time_s": 0.0}
 
     def open(self, header: Mapping[str, Any]) -> None:
@@ -27,9 +29,14 @@ class Telling:
         self._reader.open(header)
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
-        """Hand on a frame, after the news."""
+        """Hand on a frame, then the news."""
         self._at = {"frame": index, "time_s": round(reading.time_s, 6)}
         self._reader.frame(index, reading, picture)
+        self._tell()
+
+    def silence(self, index: int, time_s: float) -> None:
+        """Tell the news, though no frame comes."""
+        self._at = {"frame": index, "time_s": round(time_s, 6)}
         self._tell()
 
     def event(self, record: Mapping[str, Any]) -> None:
@@ -48,5 +55,8 @@ class Telling:
             self._reader.close({**summary, "hooks": self._office.tallies()})
 
     def _tell(self) -> None:
-        for record in self._office.news():
-            self._reader.event(record | self._at)
+        for news in self._office.news():
+            record = news | self._at
+            if self._also is not None:
+                self._also(record)
+            self._reader.event(record)

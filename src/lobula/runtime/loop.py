@@ -59,12 +59,13 @@ def run(
                     listener.beat(tally.words, ready=frame is not None)
                 if frame is None:
                     outputs.events(watch.silence())
-                    continue
-                reading, records = watch.frame(frame)
-                outputs.events(records)
-                outputs.frame(frame.index, reading, source.picture)
-                if on_frame is not None:
-                    on_frame()
+                    outputs.silence(tally.index, watch.now_s)
+                else:
+                    reading, records = watch.frame(frame)
+                    outputs.events(records)
+                    outputs.frame(frame.index, reading, source.picture)
+                    if on_frame is not None:
+                        on_frame()
                 if outputs.deserted:
                     break
         except Interrupted as stop:

@@ -11,7 +11,7 @@ from ..errors import LobulaError
 from ..types import Reading
 from .events import Record
 from .ndjson import ReaderGoneError
-from .sinks import OutputLapseError, Picture, Sink
+from .sinks import OutputLapseError, Picture, Sink, WakefulSink
 
 _DISK_FAILED = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}
 
@@ -58,6 +58,10 @@ class Outputs:
         """Hand records to the sinks, one after the other."""
         for record in records:
             self._event(record)
+
+    def silence(self, index: int, time_s: float) -> None:
+        """Tell the sinks that heed it that no frame has come since ``index``."""
+        self._each(lambda sink: sink.silence(index, time_s) if isinstance(sink, WakefulSink) else None)
 
     def close(self, summary: Callable[[], Record]) -> None:
         """Close every sink that was tried, in order; each is given the summary as it is by then."""

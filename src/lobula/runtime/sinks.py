@@ -1,9 +1,9 @@
-"""What the runtime asks of an output: five calls, the same for a trace, a video, a page or a hook."""
+"""What the runtime asks of an output: a few calls, the same for a trace, a video, a page or a hook."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,3 +43,11 @@ class Sink(Protocol):
 
     def close(self, summary: Mapping[str, Any]) -> None:
         """Finish. ``summary`` is the NDJSON summary record."""
+
+
+@runtime_checkable
+class WakefulSink(Protocol):
+    """A sink that has something to do while no frame comes, too."""
+
+    def silence(self, index: int, time_s: float) -> None:
+        """No frame has come since frame ``index``, and it is ``time_s`` in the time of the source."""

@@ -47,6 +47,11 @@ class Watch:
         self._breaks = 0
         self._arrived_s = time.monotonic()
 
+    @property
+    def now_s(self) -> float:
+        """The time of the source, as it goes on while no frame comes."""
+        return self._tally.last_s + time.monotonic() - self._arrived_s
+
     def frame(self, frame: Frame) -> tuple[Reading, list[Record]]:
         """Return the reading of ``frame`` and the records of the events it starts or ends."""
         records = self._news(frame.time_s)
@@ -68,10 +73,9 @@ class Watch:
 
     def silence(self) -> list[Record]:
         """Return the records that follow from no frame having come since the last one."""
-        silent_s = time.monotonic() - self._arrived_s
-        now_s = self._tally.last_s + silent_s
+        now_s = self.now_s
         records = self._news(now_s) + self._tally.log.elapse(now_s)
-        if silent_s > STALE_S:
+        if now_s - self._tally.last_s > STALE_S:
             records += self._lose(now_s)
         return records
 

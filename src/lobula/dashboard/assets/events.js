@@ -23,7 +23,7 @@ export function makeEvents(states, neurons, go) {
 function paired(records) {
   const items = [], open = new Map();
   for (const record of records) {
-    const key = record.type === "collision" ? `collision ${record.id}` : `${record.type} ${record.state}`;
+    const key = record.type === "collision" ? `collision ${record.id}` : `${record.type} ${record.state ?? record.hook}`;
     if (record.phase === "end") {
       const item = open.get(key) ?? { ...record, time_s: null };
       if (!open.has(key)) items.push(item);
@@ -41,7 +41,7 @@ function paired(records) {
 function entry(item, named, neurons, go) {
   const line = document.createElement("li"), title = document.createElement("b"), text = document.createElement("span");
   line.className = item.type;
-  title.textContent = item.type === "collision" ? `Collision ${item.id}` : named[item.state] ?? `${item.type} ${item.phase}`;
+  title.textContent = item.type === "collision" ? `Collision ${item.id}` : named[item.state] ?? `${item.type} ${item.hook ?? item.phase}`;
   text.textContent = ` ${stretch(item)}`;
   line.append(title, text);
   if (item.type === "collision" && item.lgmd1 !== undefined) {
@@ -56,6 +56,7 @@ function entry(item, named, neurons, go) {
     line.append(values);
   }
   if (item.type === "source") text.textContent += Object.entries(item).filter(([key]) => !["type", "phase", "frame", "time_s"].includes(key)).map(([key, value]) => `, ${key.replaceAll("_", " ")} ${value}`).join("");
+  if (item.problem) text.textContent += `, ${item.problem}`;
   if (go && item.time_s !== null) {
     line.classList.add("seek");
     line.tabIndex = 0;
