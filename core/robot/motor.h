@@ -31,7 +31,12 @@ extern "C" {
 #define LOBULA_MOTOR_HIGH_DEG 180.0f /* largest turn */
 #endif
 
-typedef enum { LOBULA_MOTOR_FORWARD, LOBULA_MOTOR_STOP, LOBULA_MOTOR_TURN } lobula_motor_action;
+typedef enum {
+    LOBULA_MOTOR_FORWARD,
+    LOBULA_MOTOR_STOP,
+    LOBULA_MOTOR_TURN_LEFT,
+    LOBULA_MOTOR_TURN_RIGHT
+} lobula_motor_action;
 
 typedef struct {
     lobula_motor_action action;

@@ -27,7 +27,9 @@ static void durations(float rate_hz, int stop, int turn) {
     CHECK(lobula_motor_decide(&m, 1) == 1, "an alarm");
     CHECK(m.action == LOBULA_MOTOR_STOP, "it stops at once");
     CHECK(lasts(&m, LOBULA_MOTOR_STOP, 1000.0f / rate_hz) == stop, "0.2 s of standing still");
-    CHECK(lasts(&m, LOBULA_MOTOR_TURN, 1000.0f / rate_hz) == turn, "0.8 s of turning");
+    lobula_motor_action side = m.turn_deg_s > 0.0f ? LOBULA_MOTOR_TURN_LEFT : LOBULA_MOTOR_TURN_RIGHT;
+    CHECK(m.action == side, "to the side that was drawn");
+    CHECK(lasts(&m, side, 1000.0f / rate_hz) == turn, "0.8 s of turning");
     CHECK(m.action == LOBULA_MOTOR_FORWARD, "and on");
 }
 
@@ -117,7 +119,7 @@ static void wheels(void) {
     m.action = LOBULA_MOTOR_STOP;
     lobula_motor_wheels(&m, 8.0f, 4.8f, v);
     CHECK(v[0] == 0.0f && v[1] == 0.0f, "still");
-    m.action = LOBULA_MOTOR_TURN;
+    m.action = LOBULA_MOTOR_TURN_LEFT;
     m.turn_deg_s = 180.0f; /* half a circle a second: each wheel goes pi * 2.4 cm = 7.540 cm in it */
     lobula_motor_wheels(&m, 8.0f, 4.8f, v);
     CHECK(fabsf(v[1] - 7.5398f) < 1e-3f && v[0] == -v[1], "to the left: the right wheel goes ahead, the left one back");
