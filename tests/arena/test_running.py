@@ -209,13 +209,24 @@ class TestResume:
             run(controller=RandomTurn(20), resume=path, record=True)
         with pytest.raises(ParameterError, match="snapshot of seed 2: must be of 3"):
             run(controller=RandomTurn(20), resume=path, seed=3)
-        with pytest.raises(ParameterError, match="snapshot of world"):
+        with pytest.raises(ParameterError, match=r"another world: .* in that: room\.width_cm was 30\.0, is 70"):
             run(World(), RandomTurn(20), resume=path)
         save_snapshot(tmp_path / "other.npz", {"a": 1})
         with pytest.raises(ParameterError, match="is no checkpoint of a run, but holds a"):
             run(controller=RandomTurn(20), resume=tmp_path / "other.npz")
         with pytest.raises(ParameterError, match="cannot be read"):
             run(controller=RandomTurn(20), resume=tmp_path / "missing.npz")
+
+    @pytest.mark.parametrize(
+        "other", [{"controller": NeverTurn()}, {"seed": 3}, {"robots": 2}, {"record": True}, {"minutes": 0.0}]
+    )
+    def test_a_checkpoint_that_is_refused_stays_as_it_is(self, other: dict[str, Any], tmp_path: Path) -> None:
+        path = tmp_path / "run.npz"
+        go(minutes=0.02, checkpoint=path, record=False)
+        before = path.read_bytes()
+        with pytest.raises(ParameterError):
+            run(**({"controller": RandomTurn(20), "checkpoint": path, "resume": path} | other))
+        assert path.read_bytes() == before
 
     def test_other_settings_of_the_network_are_refused_by_name(self, tmp_path: Path) -> None:
         path = tmp_path / "run.npz"

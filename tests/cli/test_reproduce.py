@@ -42,6 +42,8 @@ class TestReproduce:
         (("movie", "--out", "o"), "known here are fig4, fig5, fig6"),
         (("fig4", "--out", "o", "--seeds", "0"), "--seeds 0: must be 1 to 500"),
         (("fig4", "--out", "o", "--preset", "papper"), "--preset papper: must be one of paper, published"),
+        (("fig4", "--out", "o", "--minutes", "3"), "--minutes 3.0: goes with table1 or all, not with fig4"),
+        (("fig5", "--out", "o", "--workers", "2"), "--workers 2: goes with table1 or all, not with fig5"),
         (("fig4",), "--out"),
         (("fig4", "--out", "file/below"), "--out file/below: file is a file, must be a folder"),
     ],

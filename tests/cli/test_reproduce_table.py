@@ -50,11 +50,12 @@ def test_a_signal_stops_all_workers_and_nothing_is_lost(spawn, tmp_path, number,
         (("--first-seed", "-1"), "--first-seed -1: must be 0 or more"),
         (("--preset", "papre"), "papre"),
         (("--first-seed", "7001"), "--quick with seeds 7001 to 7002: must not use 7000 to 7999"),
-        (("--workers", "0"), "workers = 0: must be 1 to"),
+        (("--workers", "0"), "--workers 0: must be 1 to 256"),
     ],
 )
-def test_a_request_that_cannot_be_met(call, arguments, words):
+def test_a_request_that_cannot_be_met(call, tmp_path, arguments, words):
     done = call("reproduce", "table1", "--out", "t", "--quick", *arguments)
     assert done.code == 2
     assert words in done.err
     assert len(done.err.splitlines()) == 1
+    assert not (tmp_path / "t").exists()

@@ -12,7 +12,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from ..errors import OutputError, ParameterError
-from ..params import Params, settings_hash
+from ..params import Params, settings_hash, to_dict
 from ..runtime.interrupts import Interrupted, Interrupts
 from .controller import Controller, ControllerError, keeps_state, settings_of
 from .each_robot import EachRobot
@@ -129,7 +129,9 @@ def run(
         raise ParameterError(f"minutes = {minutes!r}: must be above 0 and at most {MOST_MINUTES:g}")
     simulation = Simulation(world, controller or NetworkController(), 0 if seed is None else seed, engine=engine)
     course = Course(simulation, minutes, record=record, checkpoint=checkpoint)
-    if kept is not None:
+    if kept is None:
+        course.keep()
+    else:
         course.resume(kept)
     try:
         with Interrupts() as interrupts:
@@ -148,7 +150,10 @@ def run(
 
 
 class Course:
-    """A run under way: the simulation, who watches it, and the last snapshot of them all."""
+    """A run under way: the simulation, who watches it, and the last snapshot of them all.
+
+    It begins with ``keep`` or ``resume``; a checkpoint that is refused stays as it is.
+    """
 
     def __init__(
         self, simulation: Simulation, minutes: float, *, record: bool, checkpoint: str | os.PathLike[str] | None
@@ -162,7 +167,6 @@ class Course:
         self.snapshot: dict[str, Any] | None = None
         self._second, self._stretch = max(1, round(rate_hz)), max(1, round(SNAPSHOT_MINUTES * 60 * rate_hz))
         self._before: dict[str, float] = {}
-        self.keep()
 
     def tick(self, progress: Progress | None) -> None:
         """Go through one tick."""
@@ -210,6 +214,10 @@ class Course:
             raise ParameterError(
                 f"checkpoint of {kept['controller']}: must be resumed with that, not {self.controller}{differing}"
             )
+        before, now = parse_world(kept["world"], "checkpoint"), self.simulation.world
+        if before != now:
+            differing = _first_difference(to_dict(before), to_dict(now))
+            raise ParameterError(f"checkpoint of another world: must be resumed in that{differing}")
         if self.recorder and kept["record"] is None:
             raise ParameterError("checkpoint without a record: must be resumed without one")
         self.simulation.resume(kept["simulation"])

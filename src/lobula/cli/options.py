@@ -20,7 +20,7 @@ Source = Annotated[
 
 Json = Annotated[bool, typer.Option("--json", help="records for programs, on standard output")]
 
-Preset = Annotated[str | None, typer.Option(metavar="NAME", help="default, paper or published")]
+Preset = Annotated[str | None, typer.Option(metavar="NAME", help="default, paper, published or lobula")]
 Neurons = Annotated[str | None, typer.Option(metavar="all|lgmds|lgmd2", help="who decides")]
 Config = Annotated[Path | None, typer.Option(metavar="FILE.toml", help="settings file, see `lobula config init`")]
 Settings = Annotated[

@@ -10,6 +10,7 @@ import typer
 from ..errors import ParameterError
 from . import options as o
 from .call import new_app
+from .reproduce_table import TABLE
 
 if TYPE_CHECKING:
     from ..experiments.paper.figure import Plan
@@ -43,15 +44,17 @@ def reproduce(
     from .destinations import make_folder
     from .print_json import print_json
     from .progress import say, screen
-    from .reproduce_table import TABLE, make_table, table_plan
+    from .reproduce_table import make_table, table_plan
 
     names = [*FIGURES, TABLE]
     if what not in (*names, ALL):
         from ..params import nearest
 
         raise ParameterError(f"reproduce {what}{nearest(what, [*names, ALL])}")
+    if what in FIGURES:
+        _refuse(what, {"--minutes": minutes, "--first-seed": first_seed, "--workers": workers})
     plan, chosen = _plan(seeds, quick, preset), [FIGURES[name] for name in FIGURES if what in (name, ALL)]
-    table = table_plan(seeds, quick, preset, minutes, first_seed) if what in (TABLE, ALL) else None
+    table = table_plan(seeds, quick, preset, minutes, first_seed, workers) if what in (TABLE, ALL) else None
     new_figure(1, 1)  # says now, not after minutes, that matplotlib is missing
     make_folder("--out", out)
     found = []
@@ -66,6 +69,12 @@ def reproduce(
     else:
         print("\n\n".join(map(_text, found)))
         say(f"\n{out / 'paper.md'}: every claim, and why it does not hold where it does not")
+
+
+def _refuse(what: str, given: dict[str, Any]) -> None:
+    for option, value in given.items():
+        if value is not None:
+            raise ParameterError(f"{option} {value}: goes with {TABLE} or {ALL}, not with {what}")
 
 
 def _plan(count: int | None, quick: bool, preset: str | None) -> Plan:

@@ -17,15 +17,17 @@ PRESET, OWN = "paper", "lobula"
 
 
 def table_plan(
-    count: int | None, quick: bool, preset: str | None, minutes: float | None, first_seed: int | None
-) -> TablePlan:
-    """Return what the options ask for: the protocol's seeds and hours, or a quick look.
+    count: int | None, quick: bool, preset: str | None, minutes: float | None, first_seed: int | None,
+    workers: int | None,
+) -> TablePlan:  # fmt: skip
+    """Return what the options ask for: the protocol's seeds and hours, or a quick look; ``workers`` is but checked.
 
     Raises
     ------
     ParameterError : a value out of range
     """
     from ..experiments.closed_loop import table1
+    from ..experiments.closed_loop.pool import MOST_WORKERS
     from ..experiments.closed_loop.table_jobs import TablePlan
     from ..experiments.closed_loop.table_page import TEST_SEEDS
     from ..model.presets import BASES
@@ -33,6 +35,8 @@ def table_plan(
 
     if preset is not None and preset not in BASES:
         raise ParameterError(f"--preset {preset}: must be one of {', '.join(BASES)}")
+    if workers is not None and not 1 <= workers <= MOST_WORKERS:
+        raise ParameterError(f"--workers {workers}: must be 1 to {MOST_WORKERS}")
     name = PRESET if preset is None else preset
     first = table1.QUICK_FIRST_SEED if quick else table1.FIRST_SEED
     repeats = table1.QUICK_SEEDS if quick else table1.SEEDS

@@ -73,6 +73,8 @@ class TestVariants:
         wall = worlds["stripes, +- grey levels", "10"].wall
         assert (wall.dark_grey, wall.light_grey) == (170, 190)
         assert worlds["margin of AA, cm", "3"].scoring.margin_cm == 3
+        assert worlds["noise of the motors, share", "0.3"].robots.motor_noise == 0.3
+        assert worlds["bend of the paths, 1/m", "1"].robots.curvature_per_m == 1
         assert worlds["frames a second", "60"].camera.rate_hz == 60
         wide = worlds["width of stripes, cm", "2.8"].wall
         assert (wide.stripe_low_cm, wide.stripe_high_cm) == pytest.approx((2.4, 3.2))
@@ -145,7 +147,7 @@ class TestRuns:
         chosen = sensitivity.variants()
         found = group([done(AP=9, CP=1, AA=5, AT=3, CR=2)])
         drawing = sensitivity.draw(4, PLAN, dict.fromkeys(((v, 4) for v in chosen), found))
-        assert len(drawing.axes) == 10
+        assert len(drawing.axes) == 14
         lines = drawing.axes[0].containers
         assert [list(line.lines[0].get_ydata()) for line in lines] == [[90.0] * 5] * 4
 

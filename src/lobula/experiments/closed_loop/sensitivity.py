@@ -1,4 +1,4 @@
-"""What the success rates hang on besides the model: the wall, the noise, the scoring margin, the frame rate."""
+"""What the success rates hang on besides the model: wall, noise, motors, the scoring margin, the frame rate."""
 
 from __future__ import annotations
 
@@ -27,6 +27,10 @@ HALF_RANGES_GREY = (10.0, 20.0, 30.0, 45.0, 60.0)
 """Of the wall's stripes about their mean."""
 STRIPES_TIMES = (0.5, 1.0, 2.0, 4.0)
 NOISES_GREY = (0.0, 1.5, 3.0, 6.0)
+MOTOR_NOISES = (0.0, 0.1, 0.3)
+"""Random share of each wheel's speed in each frame."""
+BENDS_PER_M = (0.0, 1.0, 3.0)
+"""Each robot's path ahead is bent by a constant of its own within +- this: 3 is an arc of 33 cm radius."""
 MARGINS_CM = (0.0, 1.0, 2.0, 3.0)
 RATES_HZ = (15.0, 30.0, 60.0)
 
@@ -44,6 +48,10 @@ def settings() -> Iterator[tuple[str, str, dict[str, Any]]]:
         yield "width of stripes, cm", words, {"wall": widths}
     for noise in NOISES_GREY:
         yield "noise, grey levels", f"{noise:g}", {"camera": {"noise_grey": noise}}
+    for share in MOTOR_NOISES:
+        yield "noise of the motors, share", f"{share:g}", {"robots": {"motor_noise": share}}
+    for bend in BENDS_PER_M:
+        yield "bend of the paths, 1/m", f"{bend:g}", {"robots": {"curvature_per_m": bend}}
     for margin in MARGINS_CM:
         yield "margin of AA, cm", f"{margin:g}", {"scoring": {"margin_cm": margin}}
     for rate in RATES_HZ:
