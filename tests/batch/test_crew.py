@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import multiprocessing
 import os
 import signal
 import time
@@ -14,10 +15,13 @@ from lobula.batch.clips import Clip
 from lobula.batch.crew import MOST_WORKERS, Crew, cores
 from lobula.batch.row import Row
 from lobula.batch.work import Answer
-from lobula.batch.worker import READY, serve
+from lobula.batch.worker import ONE_THREAD, READY, STOPPING, serve
 from lobula.errors import OutputError, ParameterError
 
 from .conftest import write_clip
+
+AT_IMPORT = {name: os.environ.get(name) for name in ONE_THREAD}
+"""In a worker: what a library finds that is loaded before any work."""
 
 
 def answer_of(clip):
@@ -48,16 +52,46 @@ def never_ready(line):
     os._exit(5)
 
 
+def slow_starter(line):
+    """In a worker: end before it is ready, unless two have done so."""
+    folder = line.recv()
+    if len(list(folder.glob("stillborn*"))) < 2:
+        (folder / f"stillborn{os.getpid()}").touch()
+        os._exit(1)
+    line.send(READY)
+    while True:
+        line.send(answer_of(line.recv()))
+
+
+def threads_and_signals(line):
+    """In a worker: name the environment, and the signals that wait."""
+    line.recv()
+    line.send(READY)
+    line.recv()
+    blocked = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+    notes = (*map(str, AT_IMPORT.values()), *(number.name for number in STOPPING if number in blocked))
+    line.send(Answer(Row(file="", status="ok", notes=notes)))
+    line.recv()
+
+
 def refuses(line):
     line.send(ParameterError("a worker has other code"))
 
 
+@pytest.fixture(scope="module")
+def quick():
+    """A way to start processes in which everything is loaded already."""
+    multiprocessing.set_forkserver_preload([__name__])
+    return multiprocessing.get_context("forkserver")
+
+
 @pytest.fixture
-def crew(monkeypatch, tmp_path):
+def crew(monkeypatch, tmp_path, quick):
     """Make a crew whose workers do ``what``."""
 
     def make(what, workers=2):
         monkeypatch.setattr(module, "serve", what)
+        monkeypatch.setattr(module, "get_context", lambda kind: quick)
         return Crew(tmp_path, workers)
 
     return make
@@ -112,6 +146,19 @@ def test_an_error_that_ends_the_batch(crew):
 def test_workers_that_cannot_start(crew, what, error, message):
     with pytest.raises(error, match=message):
         outcomes(crew(what), "a", "b")
+
+
+def test_a_worker_that_ends_before_it_is_ready_is_replaced(crew):
+    assert len(outcomes(crew(slow_starter), "a", "b", "c")) == 3
+
+
+def test_a_worker_starts_with_one_thread_and_deaf_to_the_terminal(monkeypatch, tmp_path):
+    monkeypatch.setattr(module, "serve", threads_and_signals)
+    before = (dict(os.environ), signal.pthread_sigmask(signal.SIG_BLOCK, ()))
+    with Crew(tmp_path, 1) as one:
+        ((_, answer),) = one.each(clips("a"))
+    assert answer.row.notes == ("1",) * len(ONE_THREAD) + ("SIGINT", "SIGTERM")
+    assert (dict(os.environ), signal.pthread_sigmask(signal.SIG_BLOCK, ())) == before
 
 
 def test_there_are_no_more_workers_than_clips(crew):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 import threading
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
@@ -13,14 +14,16 @@ from typing import Any, Self
 
 from ..errors import LobulaError, MissingExtraError, OutputError, ParameterError, pip_install
 from .clips import Clip
-from .crew import Outcome
+from .crew import Outcome, check_workers
 from .request import Request
 from .work import Answer, Desk
 
 LOCAL = "dask"
 """The address of a cluster that is made for this batch, on this machine."""
 
+_ADDRESS = re.compile(r"(tcp|tls)://[^/\s]+:\d+")
 _ANSWERS_IN_S = 10.0
+_LOGS = ("distributed", "distributed.client")
 
 _desks = threading.local()
 """In a worker: the desk of each of its threads, with the request that it is for."""
@@ -36,11 +39,14 @@ class Cluster:
 
     Raises
     ------
-    ParameterError : no cluster at the address, or no worker in it
+    ParameterError : what is no address, no cluster there, or no worker in it; workers out of range
     MissingExtraError : Dask is not installed
     """
 
     def __init__(self, request: Request, workers: int, address: str) -> None:
+        if address != LOCAL and not _ADDRESS.fullmatch(address):
+            raise ParameterError(f"--cluster {address}: must be {LOCAL}, or an address such as tcp://10.0.0.1:8786")
+        check_workers(workers)
         self._request = request
         self._address = address
         self._open = ExitStack()
@@ -48,9 +54,10 @@ class Cluster:
         self.workers = workers
 
     def __enter__(self) -> Self:
+        for name in _LOGS:
+            logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters of what they tell, we tell
         with ExitStack() as opening:
             if self._address == LOCAL:
-                logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what it tells of workers, we tell
                 cluster = self._dask.LocalCluster(
                     n_workers=self.workers, threads_per_worker=1, memory_limit=0, dashboard_address=None,
                     silence_logs=logging.CRITICAL,
@@ -81,14 +88,14 @@ class Cluster:
             yield of.pop(future), self._outcome(future)
 
     def _outcome(self, future: Any) -> Outcome:
-        if future.status in ("cancelled", "lost"):
-            raise OutputError(f"--cluster {self._address}: the scheduler is gone; what was finished by then is there")
-        if future.status == "error":
-            error = future.exception()
-            if isinstance(error, self._dask.KilledWorker):
-                return "its worker ended in the middle of it, again and again"
-            raise OutputError(f"--cluster {self._address}: a worker cannot work: {error!r}")
-        answer: Answer | LobulaError = future.result()
+        """Return what became of a clip; an answer that died with its worker is asked for again, from another one."""
+        try:
+            answer: Answer | LobulaError = future.result()
+        except self._dask.KilledWorker:
+            return "its worker ended in the middle of it, again and again"
+        except Exception as error:
+            told = f"a worker cannot work: {error!r}" if future.status == "error" else "the scheduler is gone"
+            raise OutputError(f"--cluster {self._address}: {told}; what was finished by then is kept") from error
         if isinstance(answer, LobulaError):
             raise answer
         return answer
@@ -97,11 +104,8 @@ class Cluster:
         """Connect to the scheduler and see that there is a worker."""
         try:
             client = self._dask.Client(self._address, timeout=_ANSWERS_IN_S)
-        except (OSError, ValueError, ImportError) as error:  # no answer; no such thing as this address
-            raise ParameterError(
-                f"--cluster {self._address}: no Dask scheduler answers: must be {LOCAL} or an address such as "
-                "tcp://10.0.0.1:8786"
-            ) from error
+        except (OSError, ValueError, TypeError) as error:  # no answer; a port that is none; tls:// without keys
+            raise ParameterError(f"--cluster {self._address}: no Dask scheduler answers: {error}") from error
         try:
             client.wait_for_workers(1, timeout=_ANSWERS_IN_S)
         except TimeoutError as error:

@@ -15,9 +15,10 @@ from ..errors import LobulaError, OutputError, ParameterError
 from .clips import Clip
 from .request import Request
 from .work import Answer
-from .worker import READY, serve
+from .worker import READY, serve, starting_workers
 
 MOST_WORKERS = 256
+_MOST_STILLBORN = 3  # workers, one after the other, that end before they are ready: the next one would too
 _A_MOMENT_S = 5.0  # between the end of its line and the end of a process
 
 Outcome = Answer | str
@@ -32,6 +33,17 @@ def cores() -> int:
         return os.cpu_count() or 1
 
 
+def check_workers(workers: int) -> None:
+    """Check how many workers are asked for.
+
+    Raises
+    ------
+    ParameterError : too few or too many
+    """
+    if not 1 <= workers <= MOST_WORKERS:
+        raise ParameterError(f"workers = {workers}: must be 1 to {MOST_WORKERS}")
+
+
 class Crew:
     """A context with ``workers`` processes, started when there is something to do for them.
 
@@ -43,11 +55,11 @@ class Crew:
     """
 
     def __init__(self, request: Request, workers: int) -> None:
-        if not 1 <= workers <= MOST_WORKERS:
-            raise ParameterError(f"workers = {workers}: must be 1 to {MOST_WORKERS}")
+        check_workers(workers)
         self.workers = workers
         self._request = request
         self._hands: list[_Hand] = []
+        self._stillborn = 0
 
     def __enter__(self) -> Self:
         return self
@@ -91,7 +103,9 @@ class Crew:
         started = [_Hand(self._request) for _ in range(min(self.workers - len(self._hands), len(waiting) - len(idle)))]
         self._hands += started
         for hand in started:  # all of them are on their way before the first is waited for
-            hand.wait_until_ready()
+            self._stillborn = 0 if hand.is_ready() else self._stillborn + 1
+            if self._stillborn > _MOST_STILLBORN:
+                raise OutputError(f"a worker cannot start: it ended by itself ({hand.end()})")
         for hand in (*idle, *started):
             if waiting and not hand.take(waiting[0]):
                 self._hands.remove(hand)  # it died meanwhile, and not of this clip
@@ -108,20 +122,19 @@ class _Hand:
         self.line, theirs = context.Pipe()
         self.clip: Clip | None = None
         self._process = context.Process(target=serve, args=(theirs,), daemon=True)
-        self._process.start()
+        with starting_workers():
+            self._process.start()
         theirs.close()  # so that the line ends when the worker does
         self._send(request)
 
-    def wait_until_ready(self) -> None:
-        """Wait until the worker has loaded everything.
+    def is_ready(self) -> bool:
+        """Wait until the worker has loaded everything; False where it has ended.
 
         Raises
         ------
         LobulaError : it cannot work; the reason is its own
-        OutputError : it ended
         """
-        if self._receive() != READY:
-            raise OutputError(f"a worker cannot start: it ended by itself ({self.end()})")
+        return bool(self._receive() == READY)
 
     def take(self, clip: Clip) -> bool:
         """Give the worker a clip; False where it is not there any more."""
