@@ -28,7 +28,7 @@ def test_help_names_every_verb_and_the_exit_codes(call, arguments):
 def test_every_verb_has_help_and_json(call, verb):
     done = call(verb, "--help")
     assert (done.code, done.err) == (0, "")
-    names = ("show", "init", "validate") if verb == "config" else ()
+    names = {"config": ("show", "init", "validate"), "export": ("c",)}.get(verb, ())
     texts = [call(verb, name, "--help").out for name in names] or [done.out]
     assert all("--json" in text for text in texts)
     assert import_module(f"lobula.cli.{verb}").app is not None

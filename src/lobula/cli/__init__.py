@@ -23,6 +23,7 @@ VERBS = {
     "stimulus": "write a synthetic movie with a known answer as a clip",
     "tune": "search settings on movies, clips or the arena, with a held-out score",
     "track": "find robots in a recording from above by their ID patterns, and score them",
+    "export": "settings as a folder of C for a robot",
     "bench": "measure this machine",
     "config": "show every setting and its origin; make or check a settings file",
     "doctor": "what was found on this machine, what is missing and how to get it",

@@ -1,0 +1,7 @@
+"""Settings as a folder of C for a robot: the core's own sources, and a header with every setting in it."""
+
+from .config_header import config_header
+from .folder import EXAMPLE, c_folder
+from .memory import largest_size, require_ram, state_bytes
+
+__all__ = ["EXAMPLE", "c_folder", "config_header", "largest_size", "require_ram", "state_bytes"]
