@@ -103,6 +103,7 @@ def test_links_that_cannot_be(target, says):
         ("mqtt://host/topic", "paho.mqtt.client", "mqtt"),
         ("mavlink:udpout:host:1", "pymavlink.dialects.v20", "mavlink"),
         ("mavlink:/dev/ttyS0", "serial", "mavlink"),
+        ("foxglove:127.0.0.1:8765", "foxglove", "foxglove"),
         ("mcap:a.mcap", "mcap.writer", "mcap"),
         ("rosbag:new", "rosbags.rosbag2", "rosbags"),
         ("rerun:a.rrd", "rerun", "rerun"),

@@ -22,6 +22,7 @@ EXTRAS = {
     "dask": (("distributed",), "a cluster for lobula batch"),
     "mqtt": (("paho",), "--hook mqtt://, records to a broker"),
     "mavlink": (("pymavlink", "serial"), "--hook mavlink:, alarms for an autopilot"),
+    "foxglove": (("foxglove",), "--hook foxglove:, a live view in Foxglove"),
     "mcap": (("mcap",), "--hook mcap:, recordings for Foxglove"),
     "rosbags": (("rosbags",), "ROS bags: --hook rosbag:, and as a source"),
     "rerun": (("rerun",), "--hook rerun:, recordings for Rerun"),

@@ -11,7 +11,7 @@ from typing import IO, Any, cast
 from ..errors import MissingExtraError, ParameterError, pip_install
 from ..frames.jpeg import Jpeg
 from ..runtime.events import Record
-from . import mcap_channels as channels
+from . import foxglove_channels as channels
 from .hook import Hook
 from .message import Message, header_told
 from .stream_clock import StreamClock
@@ -24,8 +24,6 @@ except ImportError as error:
 
 CHUNK_S = 1.0
 """A chunk of readings is finished and written this often; one with an event at once."""
-
-PICTURES_HZ = 4.0
 
 
 def make(target: str) -> Hook:
@@ -49,7 +47,7 @@ class Mcap(Hook):
     """
 
     readings_hz = math.inf
-    pictures_hz = PICTURES_HZ
+    pictures_hz = channels.PICTURES_HZ
     readings_kept = 300  # with some 40 pictures at 30 Hz: 40 MB at 640 x 480
 
     def __init__(self, path: Path) -> None:
@@ -106,19 +104,10 @@ class Mcap(Hook):
             self._file.close()
 
     def _add(self, message: Message) -> None:
-        record, at_ns = message.record, self._clock.at_ns(message.record)
-        told_ns = round(record["unix_s"] * 1e3) * 1_000_000
-        if message.kind == "reading":
-            self._put(channels.READINGS, channels.record_message(record), at_ns, told_ns)
-        else:
-            self._put(channels.EVENTS, channels.record_message(record), at_ns, told_ns)
-            self._put(channels.LOG, channels.log_message(record, at_ns), at_ns, told_ns)
-        if message.picture is not None:
-            jpeg = self._jpeg(message.picture)
-            self._put(channels.PICTURES, channels.picture_message(jpeg, at_ns), at_ns, told_ns)
-
-    def _put(self, channel: channels.Channel, data: bytes, at_ns: int, told_ns: int) -> None:
-        self._writer.add_message(self._ids[channel.topic], log_time=at_ns, data=data, publish_time=told_ns)
+        at_ns = self._clock.at_ns(message.record)
+        told_ns = round(message.record["unix_s"] * 1e3) * 1_000_000
+        for channel, data in channels.messages_of(message, at_ns, self._jpeg):
+            self._writer.add_message(self._ids[channel.topic], log_time=at_ns, data=data, publish_time=told_ns)
 
 
 def _as_text(record: Mapping[str, Any]) -> dict[str, str]:

@@ -27,6 +27,7 @@ KINDS: dict[str, HookKind] = {
     "mqtt": HookKind("mqtt://HOST/TOPIC", "publishes the records to a broker", "mqtt"),
     "mqtts": HookKind("mqtts://HOST/TOPIC", "publishes the records to a broker, encrypted", "mqtt"),
     "mavlink": HookKind("mavlink:LINK", "COLLISION and potentials for an autopilot or ground station", "mavlink"),
+    "foxglove": HookKind("foxglove:HOST:PORT", "a server that Foxglove looks at live, pictures included", "foxglove"),
     "mcap": HookKind("mcap:FILE.mcap", "a recording for Foxglove, pictures included", "mcap"),
     "rosbag": HookKind("rosbag:DIR", "a ROS 2 bag of standard messages, pictures included", "rosbag"),
     "rerun": HookKind("rerun:FILE.rrd", "a recording for Rerun, pictures included", "rerun"),

@@ -1,4 +1,4 @@
-"""What a recording for Foxglove holds: its channels, their schemas, and how a record of a run becomes a message.
+"""What Foxglove is given, live or as a recording: channels, their schemas, and how a record becomes messages.
 
 Source: foxglove.dev, message schemas CompressedImage and Log, JSON encoding.
 """
@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
+from ..frames.jpeg import Jpeg
 from ..types import TRACE_DTYPE
+from .message import Message
 from .said import said, warns
 
 FRAME_ID = "camera"
@@ -68,26 +70,34 @@ PICTURES = Channel(
 CHANNELS = (READINGS, EVENTS, LOG, PICTURES)
 
 
-def log_message(record: Mapping[str, Any], at_ns: int) -> bytes:
-    """Return an event or the summary as a foxglove.Log; collisions that start and lost sources are warnings."""
-    return _message({
+PICTURES_HZ = 4.0
+
+
+def messages_of(message: Message, at_ns: int, jpeg: Jpeg) -> Iterator[tuple[Channel, bytes]]:
+    """Yield what tells of ``message``, which happened at ``at_ns``: the channel and what goes there."""
+    if message.kind == "reading":
+        yield READINGS, _json(message.record)
+    else:
+        yield EVENTS, _json(message.record)
+        yield LOG, _log(message.record, at_ns)
+    if message.picture is not None:
+        yield PICTURES, _picture(jpeg(message.picture), at_ns)
+
+
+def _log(record: Mapping[str, Any], at_ns: int) -> bytes:
+    """An event or the summary as a foxglove.Log; collisions that start and lost sources are warnings."""
+    return _json({
         "timestamp": _time(at_ns), "level": WARNING if warns(record) else INFO, "message": said(record),
         "name": _NAME, "file": "", "line": 0,
     })  # fmt: skip
 
 
-def picture_message(jpeg: bytes, at_ns: int) -> bytes:
-    """Return a JPEG as a foxglove.CompressedImage."""
+def _picture(jpeg: bytes, at_ns: int) -> bytes:
     data = base64.b64encode(jpeg).decode()
-    return _message({"timestamp": _time(at_ns), "frame_id": FRAME_ID, "data": data, "format": "jpeg"})
+    return _json({"timestamp": _time(at_ns), "frame_id": FRAME_ID, "data": data, "format": "jpeg"})
 
 
-def record_message(record: Mapping[str, Any]) -> bytes:
-    """Return a record as it is."""
-    return _message(record)
-
-
-def _message(fields: Mapping[str, Any]) -> bytes:
+def _json(fields: Mapping[str, Any]) -> bytes:
     return json.dumps(fields, separators=(",", ":"), allow_nan=False).encode()
 
 
