@@ -34,12 +34,16 @@ from lobula.runtime.outputs import Outputs
 
 
 class MovieCamera:
-    """A reader that gives the pictures of a movie at their own pace, from the start again after its end."""
+    """A reader that gives the pictures of a movie at their own pace, from the start again after its end.
+
+    With ``decided`` it waits for nothing but the decision on the picture before: quick, and none is dropped.
+    """
 
     frame_count, rotation, damaged = None, 0, 0
 
-    def __init__(self, images: NDArray[np.uint8], rate_hz: float):
+    def __init__(self, images: NDArray[np.uint8], rate_hz: float, decided: Callable[[], int] | None = None):
         self.name, self.fps, self.first = "movie camera", rate_hz, images[0]
+        self._decided = decided
         self.notes: list[str] = []
         self.given_s: list[float] = []
         self.silent = threading.Event()
@@ -47,13 +51,22 @@ class MovieCamera:
         self._closed = threading.Event()
 
     def pictures(self, start_s: float | None = None) -> Iterator[Picture]:
-        begun_s = time.monotonic()
+        self._begun_s = time.monotonic()
         number = 0
-        while not self._closed.wait(max(0.0, begun_s + number / self.fps - time.monotonic())):
+        while self._due(number):
             if not self.silent.is_set():
                 self.given_s.append(time.monotonic())
                 yield Picture(self._images[number % len(self._images)], number / self.fps, number)
             number += 1
+
+    def _due(self, number: int) -> bool:
+        """Wait until it is time for a picture; False when there is no time any more."""
+        if self._decided is None:
+            return not self._closed.wait(max(0.0, self._begun_s + number / self.fps - time.monotonic()))
+        while self._decided() < number:
+            if self._closed.wait(0.001):
+                return False
+        return not self._closed.is_set()
 
     def close(self) -> None:
         self._closed.set()
@@ -75,15 +88,19 @@ def toml(params: Any) -> str:
 
 
 @contextmanager
-def live(images: NDArray[np.uint8], rate_hz: float = 30.0, **how: Any) -> Iterator[Live]:
-    """A camera, the detector in a thread of its own as in a process of its own, and the page."""
-    camera = MovieCamera(images, rate_hz)
-    source = FrameStream(camera, View(), Selection())
+def live(images: NDArray[np.uint8], rate_hz: float = 30.0, *, quick: bool = False, **how: Any) -> Iterator[Live]:
+    """A camera, the detector in a thread of its own as in a process of its own, and the page.
+
+    ``quick``: time is that of the movie, and runs as fast as the detector does.
+    """
+    rows = Rows(keep=1 << 16)
+    camera = MovieCamera(images, rate_hz, (lambda: len(rows)) if quick else None)
     settings, changes = LiveSettings(preset(), "default"), []
+    source = FrameStream(camera, View(), Selection())
     board: Board
     network = TunableNetwork(settings, wanted=lambda: board.wanted_maps, on_change=lambda *both: changes.append(both))
     header = run_header(source, settings.params, preset="default", engine=network.engine)
-    board = Board(about_run("live", header, settings), Rows(keep=1024), settings=settings)
+    board = Board(about_run("live", header, settings), rows, settings=settings)
     outputs = Outputs([LiveSink(board, source, network)], lambda text: None)
     loop = threading.Thread(target=run, args=(source, network, outputs, header))
     with Site(board, toml, **how) as site:
@@ -144,7 +161,8 @@ class Watcher:
     """A viewer that is no browser."""
 
     def __init__(self, site: Site, **how: Any):
-        self._connection = connect(f"ws://127.0.0.1:{site.port}/stream", max_size=None, open_timeout=20, **how)
+        how |= {"max_size": None, "max_queue": None}  # closing would wait for messages that nobody takes any more
+        self._connection = connect(f"ws://127.0.0.1:{site.port}/stream", open_timeout=20, **how)
 
     def __enter__(self) -> Watcher:
         self.socket = self._connection.__enter__()

@@ -13,9 +13,11 @@ from websockets.exceptions import ConnectionClosed
 
 import lobula
 from lobula.dashboard import server, viewer
-from lobula.types import NEURONS
+from lobula.dashboard.about import board_of_trace
+from lobula.dashboard.server import Site
+from lobula.types import NEURONS, TRACE_DTYPE
 
-from .stage import Watcher, ask, live
+from .stage import Watcher, ask, live, toml
 
 CUTS = pytest.mark.skipif(not hasattr(socket, "TCP_USER_TIMEOUT"), reason="this system cannot cut unread connections")
 
@@ -57,14 +59,12 @@ class TestWhatIsSent:
         assert (kept >= 1).all()  # a camera's dropped frames leave gaps, rows do not come twice
 
     def test_rows_are_the_readings(self, movie):
-        with live(movie, rate_hz=30.0) as stage, Watcher(stage.site) as watcher:
-            first = watcher.until(lambda m: len(m.rows) and m.rows["frame"][0] == 0)
-            rows = list(first.rows)
-            while rows[-1]["frame"] < 25:
+        rows = []
+        with live(movie, quick=True) as stage, Watcher(stage.site) as watcher:
+            while len(rows) < 90:
                 rows += list(watcher.take().rows)
-        if [row["frame"] for row in rows[:25]] != list(range(25)):
-            pytest.skip("this machine is so busy that frames were dropped")
-        for row, reading in zip(rows[:25], expected(movie, 30.0, 25), strict=True):
+        assert [row["frame"] for row in rows[:90]] == list(range(90))
+        for row, reading in zip(rows[:90], expected(movie, 30.0, 90), strict=True):
             assert row["potentials"] == pytest.approx(reading[1:5], abs=1e-6)
             assert row["spikes"].tolist() == list(reading.spikes)
 
@@ -110,27 +110,35 @@ class TestWhatIsSent:
         assert status["dropped"] >= 0
         assert status["viewers"] >= 1
 
+    def test_a_quiet_source_is_told_from_a_dead_line(self, monkeypatch):
+        monkeypatch.setattr(viewer, "BEAT_S", 0.05)
+        trace = np.zeros(3, TRACE_DTYPE)
+        trace["state"] = "ok"
+        with Site(board_of_trace(trace, {}, "run.npz"), toml) as site, Watcher(site) as watcher:
+            watcher.until(lambda m: len(m.rows) == 3)
+            later = [watcher.take().head for _ in range(4)]
+        assert all(head.keys() == {"status"} for head in later)
+
 
 class TestAlarm:
     def test_it_is_an_event_a_row_and_a_reason(self, movie):
-        with live(movie) as stage, Watcher(stage.site) as watcher:
+        with live(movie, quick=True) as stage, Watcher(stage.site) as watcher:
             rows = watcher.until(lambda m: m.rows["collision"].any()).rows
             assert rows["spikes"][rows["collision"] == 1].any()
             records = watcher.until(lambda m: any(e["type"] == "collision" for e in m.head.get("events", ()))).head
         assert any(e["type"] == "collision" and e["phase"] == "start" for e in records["events"])
 
     def test_a_threshold_that_nothing_reaches_silences_it_at_once(self, movie):
-        with live(movie, rate_hz=60.0) as stage, Watcher(stage.site) as watcher:
+        with live(movie, rate_hz=60.0, quick=True) as stage, Watcher(stage.site) as watcher:
             watcher.until(lambda m: m.rows["collision"].any())
             assert ask(stage.site, "/settings", "POST", {"lgmd2.spiking.threshold": 0.99}).status == 200
             told = watcher.until(lambda m: "settings" in m.head and m.head["settings"]["version"] == 1)
             assert told.head["settings"]["thresholds"]["lgmd2"] == 0.99
-            seen, alarms = 0, 0
-            while seen < 150:  # the movie once, after the alarm of before has run out
-                rows = watcher.take().rows
-                seen += len(rows)
-                alarms += int(rows["collision"].sum()) if seen > 60 else 0
-            assert alarms == 0
+            decided = len(stage.board.rows)  # what is decided later is decided with it
+            later = []
+            while len(later) < 150:  # the movie twice, after the alarm of before has run out
+                later += [row for row in watcher.take().rows if row["frame"] > decided + 60]
+            assert not any(row["collision"] for row in later)
         ((_, after),) = stage.changes
         assert after.lgmd2.spiking.threshold == 0.99
 
@@ -183,25 +191,25 @@ class TestViewersWhoDoNoGood:
                 second.take()
             first.take()
 
-    @pytest.mark.parametrize(("send_s", "unread_s"), [(1.5, 60.0), pytest.param(60.0, 2.0, marks=CUTS)])
+    @pytest.mark.parametrize(("send_s", "unread_s"), [(0.7, 60.0), pytest.param(60.0, 1.0, marks=CUTS)])
     def test_one_that_never_reads_holds_up_nobody_and_is_let_go(self, movie, monkeypatch, send_s, unread_s):
         """Its socket's buffers fill; after that nothing more is kept for it than one message."""
         monkeypatch.setattr(viewer, "SEND_S", send_s)
         monkeypatch.setattr(server, "UNREAD_S", unread_s)
-        large = np.repeat(np.repeat(movie, 6, axis=1), 6, axis=2)  # large pictures fill the buffers sooner
-        large = large ^ np.random.default_rng(0).integers(0, 64, large.shape[1:], np.uint8)
-        with live(large, rate_hz=60.0) as stage, Watcher(stage.site) as good, silent(stage.site.port):
-            good.until(lambda m: m.head["status"]["viewers"] == 2)
-            rows, begun_s, behind = 0, time.monotonic(), 0
-            while len(viewers := set(stage.board.viewers)) == 2:
-                rows += len(good.take().rows)
-                behind = max(behind, len(stage.board.rows) - min(v.row_number for v in viewers))
-                assert time.monotonic() - begun_s < 40
-            assert rows > 60  # the good one was served all the while
-            if send_s < unread_s:  # the other got nothing; what it lacks is not queued, its place is remembered
-                assert behind > 40
-            frames = len(stage.board.rows)
-            good.until(lambda m: len(stage.board.rows) > frames + 30)
+        with live(movie, rate_hz=60.0) as stage:
+            stage.site._socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4096)  # filled the sooner
+            with Watcher(stage.site) as good, silent(stage.site.port):
+                good.until(lambda m: m.head["status"]["viewers"] == 2)
+                rows, deadline_s, behind = 0, time.monotonic() + 60, 0
+                while len(viewers := set(stage.board.viewers)) == 2:
+                    rows += len(good.take().rows)
+                    behind = max(behind, len(stage.board.rows) - min(v.row_number for v in viewers))
+                    assert time.monotonic() < deadline_s
+                assert rows >= behind  # the good one was served all the while
+                if send_s < unread_s:  # the other got nothing; what it lacks is not queued, its place is remembered
+                    assert behind > 5
+                frames = len(stage.board.rows)
+                good.until(lambda m: len(stage.board.rows) > frames + 30)
 
     def test_one_that_never_reads_does_not_keep_the_program_from_ending(self, movie):
         with live(movie) as stage, silent(stage.site.port):

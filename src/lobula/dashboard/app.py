@@ -9,7 +9,7 @@ from concurrent.futures import Executor
 from typing import Any
 from urllib.parse import parse_qs
 
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route, Router, WebSocketRoute
 from starlette.types import ASGIApp, Receive, Scope, Send
@@ -25,14 +25,22 @@ from .viewer import Streams
 MOST_BODY = 16_384
 """Bytes of a request's body; all settings at once take a tenth of it."""
 
-_AFTER_WRONG_TOKEN_S = 0.5
+BODY_S = 10.0
+"""A body that has not come whole after this long is given up, s."""
+
+AFTER_WRONG_TOKEN_S = 0.5
+"""So long whoever guesses tokens waits for each answer, s."""
 
 Toml = Callable[[NetworkParams], str]
 """Writes settings as ``lobula run --config`` reads them."""
 
 
-class _TooLargeError(Exception):
-    """A body of more than MOST_BODY bytes."""
+class _BodyError(Exception):
+    """A body that is not taken; ``answer`` says why."""
+
+    def __init__(self, status: int, reason: str) -> None:
+        super().__init__(reason)
+        self.answer = PlainTextResponse(f"{reason}\n", status, {"connection": "close"})
 
 
 def make_app(board: Board, access: Access, executor: Executor, toml: Toml) -> ASGIApp:
@@ -95,8 +103,8 @@ class _Desk:
         """Take the token from the form."""
         try:
             given = parse_qs((await _body(request)).decode("ascii", "replace")).get("token", [""])[0]
-        except _TooLargeError:
-            return _too_large()
+        except _BodyError as error:
+            return error.answer
         if not self._access.opened_by(token=given):
             return await self._wrong_token()
         return self._with_cookie(RedirectResponse("/", 303))
@@ -116,8 +124,8 @@ class _Desk:
                 settings.restore()
             else:
                 settings.change(asked)
-        except _TooLargeError:
-            return _too_large()
+        except _BodyError as error:
+            return error.answer
         except ParameterError as error:
             return PlainTextResponse(f"{error}\n", 422)
         except (ValueError, RecursionError):
@@ -141,20 +149,22 @@ class _Desk:
         return response
 
     async def _wrong_token(self) -> Response:
-        await asyncio.sleep(_AFTER_WRONG_TOKEN_S)
+        await asyncio.sleep(AFTER_WRONG_TOKEN_S)
         media, content = self._files["login.html"]
         return Response(content.replace(b"<!--wrong-->", b"<p>That was not it.</p>"), 401, media_type=media)
 
 
 async def _body(request: Request) -> bytes:
-    """Return the body, read no further than it may be long."""
+    """Return the body, read no further than it may be long, and for no longer than it may take."""
     body = b""
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > MOST_BODY:
-            raise _TooLargeError
+    try:
+        async with asyncio.timeout(BODY_S):
+            async for chunk in request.stream():
+                body += chunk
+                if len(body) > MOST_BODY:
+                    raise _BodyError(413, f"must be at most {MOST_BODY} bytes")
+    except ClientDisconnect:
+        raise _BodyError(400, "was cut off") from None
+    except TimeoutError:
+        raise _BodyError(408, f"must come within {BODY_S:g} s") from None
     return body
-
-
-def _too_large() -> Response:
-    return PlainTextResponse(f"must be at most {MOST_BODY} bytes\n", 413, {"connection": "close"})

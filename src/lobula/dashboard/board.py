@@ -92,9 +92,13 @@ class Board:
         self.wake()
 
     def add_event(self, record: Mapping[str, Any]) -> None:
-        """Add one record of an event."""
+        """Add one record of an event.
+
+        Of tries to open a source again only the newest is kept: a night without the camera is not to push out alarms.
+        """
         version, records = self.events
-        self.events = version + 1, [*records[1 - MOST_EVENTS :], dict(record)]
+        again = bool(records) and _is_try(record) and _is_try(records[-1])
+        self.events = version + 1, [*(records[:-1] if again else records[1 - MOST_EVENTS :]), dict(record)]
         self.wake()
 
     def replace_events(self, records: Sequence[Mapping[str, Any]]) -> None:
@@ -140,3 +144,7 @@ class Board:
         self._waking = False
         for viewer in self.viewers:
             viewer.wake.set()
+
+
+def _is_try(record: Mapping[str, Any]) -> bool:
+    return (record["type"], record["phase"]) == ("source", "retry")

@@ -20,6 +20,7 @@ try:
     import uvicorn
 
     from .app import Toml, make_app
+    from .prompt_http import PromptHttp
 except ImportError as missing:
     raise MissingExtraError(
         f"the page needs starlette, uvicorn and websockets: {pip_install('dashboard')}"
@@ -57,7 +58,7 @@ class Site:
         self._executor = ThreadPoolExecutor(1, "lobula dashboard scenes")
         config = uvicorn.Config(
             make_app(board, self.access, self._executor, toml),
-            http="h11", loop="asyncio", lifespan="off", log_config=None, log_level="error", access_log=False,
+            http=PromptHttp, loop="asyncio", lifespan="off", log_config=None, log_level="error", access_log=False,
             proxy_headers=False, server_header=False, limit_concurrency=MOST_CONNECTIONS, timeout_keep_alive=5,
             timeout_graceful_shutdown=1, h11_max_incomplete_event_size=16_384, ws_max_size=4096,
             ws_per_message_deflate=False,

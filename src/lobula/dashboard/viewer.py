@@ -6,6 +6,7 @@ import asyncio
 import json
 from collections.abc import Callable
 from concurrent.futures import Executor
+from contextlib import suppress
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -16,6 +17,9 @@ from .messages import message
 from .scene import Scene
 
 MOST_VIEWERS = 16
+BEAT_S = 4.0
+"""A viewer hears something at least this often, s, so that it can tell a dead line from a quiet source."""
+
 SEND_S = 10.0
 """A viewer that takes nothing for so long is let go, s."""
 
@@ -51,9 +55,11 @@ class Streams:
             await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _feed(self, socket: WebSocket, viewer: Viewer) -> None:
-        """Send what is new, each time the viewer has taken what went before."""
+        """Send what is new, each time the viewer has taken what went before; now and then though nothing is."""
         while True:
-            await viewer.wake.wait()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(BEAT_S):
+                    await viewer.wake.wait()
             viewer.wake.clear()
             scene = await self._scene(viewer)
             data, more = message(self._board, viewer, scene)
