@@ -13,8 +13,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from ..errors import LobulaError, MissingExtraError, OutputError, ParameterError, pip_install
+from ..workers import check_workers
 from .clips import Clip
-from .crew import Outcome, check_workers
+from .crew import Outcome
 from .request import Request
 from .work import Answer, Desk
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 from collections import deque
 from collections.abc import Iterable, Iterator
@@ -11,37 +10,18 @@ from multiprocessing.connection import Connection, wait
 from types import TracebackType
 from typing import Any, Self, cast
 
-from ..errors import LobulaError, OutputError, ParameterError
+from ..errors import LobulaError, OutputError
+from ..workers import check_workers, starting_workers
 from .clips import Clip
 from .request import Request
 from .work import Answer
-from .worker import READY, serve, starting_workers
+from .worker import READY, serve
 
-MOST_WORKERS = 256
 _MOST_STILLBORN = 3  # workers, one after the other, that end before they are ready: the next one would too
 _A_MOMENT_S = 5.0  # between the end of its line and the end of a process
 
 Outcome = Answer | str
 """What became of a clip, or how its worker died of it, twice."""
-
-
-def cores() -> int:
-    """Return how many cores this process may use."""
-    try:
-        return len(os.sched_getaffinity(0))
-    except AttributeError:  # macOS
-        return os.cpu_count() or 1
-
-
-def check_workers(workers: int) -> None:
-    """Check how many workers are asked for.
-
-    Raises
-    ------
-    ParameterError : too few or too many
-    """
-    if not 1 <= workers <= MOST_WORKERS:
-        raise ParameterError(f"workers = {workers}: must be 1 to {MOST_WORKERS}")
 
 
 class Crew:

@@ -110,7 +110,8 @@ def batch(
 
 def _hands(asked: Request, workers: int | None, cluster: str | None) -> Hands:
     """Return who does the work: processes of this machine, or a Dask cluster."""
-    from ..batch.crew import Crew, cores
+    from ..batch.crew import Crew
+    from ..workers import cores
 
     if cluster is None:
         return Crew(asked, cores() if workers is None else workers)

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..errors import ParameterError
+from ..workers import MOST_WORKERS, cores
 
 if TYPE_CHECKING:
     from ..experiments.closed_loop.table_jobs import TablePlan
@@ -27,7 +27,6 @@ def table_plan(
     ParameterError : a value out of range
     """
     from ..experiments.closed_loop import table1
-    from ..experiments.closed_loop.pool import MOST_WORKERS
     from ..experiments.closed_loop.table_jobs import TablePlan
     from ..experiments.closed_loop.table_page import TEST_SEEDS
     from ..model.presets import BASES
@@ -62,7 +61,7 @@ def make_table(plan: TablePlan, folder: Path, quick: bool, workers: int | None) 
     with screen(plan.job_count, "runs of the arena") as here:
         try:
             return make(
-                plan, folder, quick=quick, workers=os.cpu_count() or 1 if workers is None else workers,
+                plan, folder, quick=quick, workers=cores() if workers is None else workers,
                 advance=here.advance,
             )  # fmt: skip
         except Interrupted:

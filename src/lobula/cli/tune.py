@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -69,7 +68,6 @@ def tune(
     """
     from ..model.presets import DEFAULT
     from ..report.axes import new_figure
-    from ..report.landing import writing
     from ..runtime.interrupts import Interrupted
     from ..tuning.journal import load_optuna, opened
     from ..tuning.plan import Budget, Plan
@@ -77,7 +75,8 @@ def tune(
     from ..tuning.scratch import scratch
     from ..tuning.search import tune as search
     from ..tuning.space import axes
-    from .destinations import check_folder
+    from ..workers import cores
+    from .destinations import make_folder
     from .print_json import print_json
     from .progress import say, screen
     from .settings import choose
@@ -90,13 +89,10 @@ def tune(
     chosen = choose(preset, neurons, config, settings or ())
     name = DEFAULT if chosen.preset == "default" else chosen.preset  # what default is may change
     wanted = axes(chosen.params, vary or ())
-    processes = (os.cpu_count() or 1) if workers is None else workers
-    budget = Budget(trials=trials, minutes=minutes, workers=processes, seed=seed)
+    budget = Budget(trials=trials, minutes=minutes, workers=cores() if workers is None else workers, seed=seed)
     load_optuna()
     new_figure(1, 1)  # says now, not after the search, that matplotlib is missing
-    check_folder("--out", out)
-    with writing(out):
-        out.mkdir(parents=True, exist_ok=True)
+    make_folder("--out", out)
     with opened(out) as journal, scratch(out) as films:
         task = _task(on, given, films)
         if left_out := task.about.get("left_out"):

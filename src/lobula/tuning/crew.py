@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 import time
 import traceback
 import warnings
@@ -18,6 +17,7 @@ from ..arena.running import RunInterrupted
 from ..errors import LobulaError, OutputError
 from ..model.network import NetworkParams
 from ..runtime.interrupts import Interrupted
+from ..workers import begin_worker, starting_workers
 from .tally import Tally
 from .task import Task
 
@@ -58,7 +58,7 @@ class Crew:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for process in self._processes:
-            process.terminate()
+            process.kill()
         for process in self._processes:
             process.join()
 
@@ -105,7 +105,8 @@ class Crew:
     def _new(self) -> Connection:
         here, there = self._context.Pipe()
         process = self._context.Process(target=_work, args=(there, self._task), daemon=True)
-        process.start()
+        with starting_workers():
+            process.start()
         there.close()
         self._processes.append(process)
         return here
@@ -125,7 +126,7 @@ def _measured(task: Task, job: Job) -> Measured:
 def _work(connection: Connection, task: Task) -> None:
     """Measure what comes until nobody is at the other end."""
     os.setsid()  # Ctrl-C of the terminal goes to the one who asks, who ends this process
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    begin_worker()
     warnings.simplefilter("ignore")  # said once, by the one who asks
     with suppress(EOFError, BrokenPipeError, Interrupted):
         while True:

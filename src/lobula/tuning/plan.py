@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 from ..errors import ParameterError
 from ..model.network import NetworkParams
+from ..workers import check_workers
 from .journal import Trial
 from .space import Axis, settings_at
 from .task import Task
@@ -15,7 +16,6 @@ from .task import Task
 TRIALS = 100
 MOST_TRIALS = 100_000
 MOST_MINUTES = 100_000.0
-MOST_WORKERS = 256
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,8 +38,7 @@ class Budget:
             raise ParameterError(f"{self.trials} trials: must be 1 to {MOST_TRIALS}")
         if self.minutes is not None and not 0 < self.minutes <= MOST_MINUTES:
             raise ParameterError(f"{self.minutes:g} minutes: must be above 0 and at most {MOST_MINUTES:g}")
-        if not 1 <= self.workers <= MOST_WORKERS:
-            raise ParameterError(f"{self.workers} workers: must be 1 to {MOST_WORKERS}")
+        check_workers(self.workers)
         if self.seed < 0:
             raise ParameterError(f"seed {self.seed}: must be 0 or more")
 

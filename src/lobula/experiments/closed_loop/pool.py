@@ -13,13 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from ...arena.running import RunInterrupted
-from ...errors import OutputError, ParameterError
+from ...errors import OutputError
 from ...report.landing import writing
 from ...runtime.interrupts import Interrupted
+from ...workers import check_workers
 from .code_hash import code_hash
 from .jobs import Done, Job, finished, work
-
-MOST_WORKERS = 256
 
 _stop: list[Any] = []
 """In a worker: the event that tells it to stop."""
@@ -38,8 +37,7 @@ def run_jobs(
     Interrupted : a signal came; every run under way has left a checkpoint
     OutputError : a result cannot be written
     """
-    if not 1 <= workers <= MOST_WORKERS:
-        raise ParameterError(f"workers = {workers}: must be 1 to {MOST_WORKERS}")
+    check_workers(workers)
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
     code, step = code_hash(), advance or (lambda: None)

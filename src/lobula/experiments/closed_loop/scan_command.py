@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -11,6 +10,7 @@ from pathlib import Path
 from ...errors import LobulaError, ParameterError
 from ...report.landing import writing
 from ...runtime.interrupts import Interrupted, raised_at_once
+from ...workers import cores
 from .scan import ScanPlan, Variant, job_count
 
 FIRST_SEED, SEEDS, MINUTES = 101, 5, 5.0
@@ -27,7 +27,7 @@ def command(about: str, variants: Sequence[Variant], make: Make, arguments: Sequ
     p.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="N", help=f"{FIRST_SEED}, for calibration")
     p.add_argument("--minutes", type=float, default=MINUTES, metavar="MIN", help=f"simulated, of each run; {MINUTES:g}")
     p.add_argument("--robots", type=int, nargs="+", default=[4, 7], metavar="N", help="numbers of robots; 4 7")
-    p.add_argument("--workers", type=int, default=os.cpu_count() or 1, metavar="N", help="processes; one a core")
+    p.add_argument("--workers", type=int, default=cores(), metavar="N", help="processes; one a core")
     p.add_argument("--list", action="store_true", help="say what would be run, and stop")
     given = p.parse_args(arguments)
     try:
