@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from ..report.landing import writing
+from ..landing import writing
 from .lines import lock
 
 _LOCK = ".lock"

@@ -14,9 +14,9 @@ from ..errors import FrameSourceError, ParameterError
 from ..frames.geometry import View
 from ..frames.inputs import InputOptions
 from ..frames.selection import Selection
+from ..landing import whole_file, writing
 from ..model.network import NetworkParams
 from ..params import settings_hash, to_dict
-from ..report.landing import whole_file, writing
 from ..source_hash import source_hash
 from .content import sha256
 from .places import make_places, settings_path

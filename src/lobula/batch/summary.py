@@ -10,9 +10,9 @@ from typing import Any
 
 from .._version import __version__
 from ..errors import OutputError
+from ..landing import whole_file
 from ..params import settings_hash
 from ..report.csv_lines import csv_lines
-from ..report.landing import whole_file
 from ..runtime.interrupts import Interrupted
 from .places import manifest_path, summary_path, table_path
 from .request import Request

@@ -14,7 +14,7 @@ from typing import Any
 from .._version import __version__
 from ..engine.network import Network
 from ..errors import LobulaError, MissingExtraError, OutputError, ParameterError
-from ..report.landing import land, writing
+from ..landing import land, writing
 from ..report.trace import TraceWriter
 from ..runtime.header import run_header
 from ..runtime.interrupts import Interrupted

@@ -161,7 +161,7 @@ def _write(
 ) -> tuple[dict[str, Any], LobulaError | Interrupted | None]:
     """Write what was asked for; return what there is to say of it, and what ended it, for after the report."""
     from ..experiments.closed_loop.event_rows import event_lines
-    from ..report.landing import whole_file
+    from ..landing import whole_file
     from ..runtime.interrupts import Interrupted
     from .arena_saves import write_saves
 

@@ -20,7 +20,7 @@ def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None
     ------
     ParameterError : an output is one of the inputs or another output, is a folder, or lies in no folder
     """
-    from ..report.landing import part_of
+    from ..landing import part_of
 
     read = {identity: what for what, source in (inputs or {}).items() for identity in _identities(_files_of(source))}
     taken: dict[Path, str] = {}
@@ -74,7 +74,7 @@ def make_folder(option: str, folder: Path) -> None:
     ParameterError : it, or what it lies in, is a file
     OutputError : it cannot be made, or not be written into
     """
-    from ..report.landing import writing
+    from ..landing import writing
 
     check_folder(option, folder)
     with writing(folder):

@@ -85,7 +85,7 @@ def _check_out(out: Path, force: bool) -> None:
 
 
 def _write(out: Path, files: dict[str, str]) -> None:
-    from ..report.landing import whole_file
+    from ..landing import whole_file
     from .destinations import make_folder
 
     make_folder("--out", out)

@@ -120,7 +120,7 @@ def _write(movie: Movie, path: Path) -> Path:
 def _write_npz(movie: Movie, path: Path) -> None:
     import numpy as np
 
-    from ..report.landing import whole_file
+    from ..landing import whole_file
 
     with whole_file(path) as temporary, temporary.open("wb") as file:
         np.savez_compressed(file, images=movie.images, times_s=movie.times_s, truth=np.array(js.dumps(_truth(movie))))
@@ -130,7 +130,7 @@ def _write_folder(movie: Movie, folder: Path) -> None:
     """Write one PNG for each picture, and ``times.csv``, which gives ``lobula run`` their stamps."""
     import numpy as np
 
-    from ..report.landing import writing
+    from ..landing import writing
     from ..report.png import write_png
 
     with writing(folder):

@@ -120,8 +120,8 @@ def track(
 
 
 def _print(path: Path, ids: str, disc_cm: float | None, json: bool) -> None:
+    from ..landing import whole_file
     from ..overhead.sheet import sheet
-    from ..report.landing import whole_file
     from .destinations import check_files
     from .print_json import print_json
     from .progress import say
@@ -140,7 +140,7 @@ def _print(path: Path, ids: str, disc_cm: float | None, json: bool) -> None:
 
 
 def _write(path: Path, lines: Iterable[str]) -> None:
-    from ..report.landing import whole_file
+    from ..landing import whole_file
 
     with whole_file(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         file.writelines(lines)

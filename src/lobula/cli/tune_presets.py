@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..landing import whole_file, writing
 from ..model.presets import preset as named_preset
 from ..params import settings_hash
-from ..report.landing import whole_file, writing
 from ..runtime.header import setting_rows
 from .settings_file import settings_toml
 from .tune_text import held_out_text, score_text

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 
 from .._version import __version__
 from ..errors import LobulaError, OutputError
+from ..landing import whole_file, writing
 from ..model.presets import preset
 from ..params import settings_hash
-from ..report.landing import whole_file, writing
 from ..runtime.interrupts import Interrupted, raised_at_once
 from .choosing import Candidates, choose_apart
 from .contenders import FIXED, WHO, Gathered, gather

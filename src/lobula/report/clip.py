@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError
-from .landing import part_of
+from ..landing import part_of
 from .mp4 import Mp4File
 from .ring import Slot
 from .trace import TraceWriter

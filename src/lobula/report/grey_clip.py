@@ -13,8 +13,8 @@ from av.error import FFmpegError
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..landing import whole_file
 from .h264 import TICK, require_h264
-from .landing import whole_file
 
 CLIP_SUFFIXES = (".mp4", ".mkv")
 _FULL_RANGE = 2

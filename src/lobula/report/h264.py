@@ -16,7 +16,7 @@ from av.video.reformatter import ColorRange, Colorspace, VideoReformatter
 from numpy.typing import NDArray
 
 from ..errors import OutputError, ShapeError
-from .landing import writing
+from ..landing import writing
 
 TICK = Fraction(1, 90_000)
 """Time base of the video, s: the usual one, exact for 24, 25, 30 and 60 Hz, 11 us at worst elsewhere."""

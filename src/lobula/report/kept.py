@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, ParameterError
+from ..landing import writing
 from ..runtime.sinks import OutputLapseError, Picture
 from ..types import Reading
 from .clip import Clip, Finisher, free_name
 from .h264 import H264Encoder, require_h264
-from .landing import writing
 from .recording import EvenPictures
 from .ring import MOST_BYTES, Ring, Slot
 from .trace import facts

@@ -15,8 +15,8 @@ from av.error import FFmpegError
 from numpy.typing import NDArray
 
 from ..errors import OutputError
+from ..landing import part_of, whole_file, writing
 from .h264 import FRAGMENTED, TICK, Coded, H264Encoder
-from .landing import part_of, whole_file, writing
 
 _FASTSTART = {"movflags": "+faststart"}
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from ..errors import OutputError
 from ..frames.jpeg import Jpeg
+from ..landing import whole_file, writing
 from ..runtime.sinks import Picture
 from ..types import Reading
-from .landing import whole_file, writing
 from .page_html import Event, Report, page_html
 from .trace import TraceWriter
 from .trace_file import read_trace

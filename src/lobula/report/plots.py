@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import ParameterError
+from ..landing import whole_file
 from ..types import NEURONS, Frame, Neuron
 from .axes import new_figure, plain
-from .landing import whole_file
 from .palette import LABELS, LIGHT, STATE_LABELS, thresholds
 from .spans import Span, collision_spans, state_spans, thinned
 

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import OutputError, ParameterError
+from ..landing import part_of, whole_file, writing
 from ..runtime.sinks import Picture
 from ..types import Reading
-from .landing import part_of, whole_file, writing
 from .trace_file import COLUMNS, TRACE_SUFFIXES, pyarrow_parquet, read_trace
 
 

@@ -15,8 +15,8 @@ from ..engine.network import Network
 from ..errors import ParameterError
 from ..evaluate.labels import Label
 from ..evaluate.scoring import ClipScore, last_frame, score_clip
+from ..landing import writing
 from ..model.network import NetworkParams
-from ..report.landing import writing
 from ..types import TRACE_DTYPE, Frame
 
 

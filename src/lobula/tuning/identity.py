@@ -11,9 +11,9 @@ from typing import Any
 from .._version import __version__
 from ..errors import ParameterError
 from ..experiments.closed_loop.code_hash import code_hash
+from ..landing import whole_file
 from ..model.network import NetworkParams
 from ..params import settings_hash
-from ..report.landing import whole_file
 from .space import Axis
 from .task import Task
 

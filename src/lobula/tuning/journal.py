@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..errors import MissingExtraError, ParameterError, pip_install
-from ..report.landing import writing
+from ..landing import writing
 from .space import Axis, Value
 from .tally import Objective
 

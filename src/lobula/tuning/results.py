@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..intervals import Interval
+from ..landing import whole_file
 from ..params import settings_hash
 from ..report.front_plot import Mark, Series, plot_front
-from ..report.landing import whole_file
 from ..report.plots import save_figure
 from .journal import Trial
 from .plan import Found, Scored

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from ..report.landing import writing
+from ..landing import writing
 
 PREFIX = ".films-"
 

@@ -28,8 +28,8 @@ from ...arena.simulation import Simulation
 from ...arena.world import RoomParams, World
 from ...errors import LobulaError, ParameterError
 from ...intervals import Interval
+from ...landing import writing
 from ...report.csv_lines import csv_lines
-from ...report.landing import writing
 from ...runtime.interrupts import Interrupted, raised_at_once
 from .paper_table import DENSITIES
 from .run_log import note

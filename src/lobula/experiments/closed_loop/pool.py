@@ -14,7 +14,7 @@ from typing import Any
 
 from ...arena.running import RunInterrupted
 from ...errors import OutputError
-from ...report.landing import writing
+from ...landing import writing
 from ...runtime.interrupts import Interrupted
 from ...workers import check_workers
 from .code_hash import code_hash

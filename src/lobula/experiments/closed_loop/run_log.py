@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..._version import __version__
-from ...report.landing import writing
+from ...landing import writing
 from .code_hash import code_hash
 
 

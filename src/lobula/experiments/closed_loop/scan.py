@@ -9,10 +9,10 @@ from typing import Any
 
 from ...arena.world import World
 from ...errors import ParameterError
+from ...landing import whole_file
 from ...model.network import NetworkParams
 from ...params import settings_hash
 from ...report.csv_lines import csv_lines
-from ...report.landing import whole_file
 from .job_rows import job_lines
 from .jobs import Done, Job
 from .paper_table import DENSITIES

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from ...errors import LobulaError, ParameterError
-from ...report.landing import writing
+from ...landing import writing
 from ...runtime.interrupts import Interrupted, raised_at_once
 from ...workers import cores
 from .scan import ScanPlan, Variant, job_count

@@ -13,8 +13,8 @@ from typing import Any
 
 from ..._version import __version__
 from ...errors import ParameterError
+from ...landing import whole_file
 from ...params import settings_hash
-from ...report.landing import whole_file
 from ...report.plots import save_figure
 from . import table_plots as plots
 from .beyond_claims import BEYOND

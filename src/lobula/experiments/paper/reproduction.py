@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ...errors import ParameterError
-from ...report.landing import whole_file, writing
+from ...landing import whole_file, writing
 from ...report.plots import save_figure
 from . import fig4, fig5, fig6
 from .claims import judged

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from lobula.errors import OutputError
-from lobula.report.landing import part_of, whole_file, writing
+from lobula.landing import part_of, whole_file, writing
 
 
 def test_part_keeps_the_suffix_or_takes_another() -> None:
