@@ -10,6 +10,7 @@ from typing import Any
 from ..errors import ParameterError
 from ..frames.source import FrameSource
 from ..runtime.service import Listener, find_service
+from ..runtime.sources import Source
 from .progress import Say, Screen
 
 DEFAULT_RECONNECT = "forever"
@@ -43,7 +44,7 @@ def require_live(frames: FrameSource, **given: object) -> None:
             raise ParameterError(f"--{name} {value}: {frames.name} is {what}: must be a camera or a stream")
 
 
-def listeners(frames: FrameSource, here: Screen | None = None) -> list[Listener]:
+def listeners(frames: Source, here: Screen | None = None) -> list[Listener]:
     """Return who is told how the run fares: a service manager, and of a live source the words before the bar."""
     service = find_service()
     found: list[Listener] = [] if service is None else [service]

@@ -33,6 +33,8 @@ class Narrator:
         at = f"{record['time_s']:8.3f} s  frame {record['frame']:<6}"
         if record["type"] == "hook":
             self._say(f"{at} hook {record['hook']}: {_hook_text(record)}")
+        elif record["type"] == "motor":
+            self._say(f"{at} wheels: {record['action'].replace('_', ' ')}")
         elif record["type"] == "source":
             text = _source_text(record)
             if text:
@@ -65,9 +67,9 @@ class Narrator:
         self._say(f"{text}, {summary['ms_per_frame']:.3f} ms a frame (worst {summary['ms_worst']:.1f})")
         if "latency_ms" in summary:
             text = f"{summary['latency_ms']:.1f} ms from capture to decision (worst {summary['latency_ms_worst']:.1f})"
-            if summary["lost"]:
-                text += f"; lost {counted(summary['lost'], 'time')}, away {summary['away_s']:.1f} s"
-            self._say(text)
+            self._say(text + (f"; {_away(summary)}" if summary["lost"] else ""))
+        elif summary.get("lost"):
+            self._say(_away(summary))
         for hook in summary.get("hooks", ()):
             if hook["dropped"]:
                 self._say(f"hook {hook['hook']}: {hook['sent']} sent, {hook['dropped']} lost: {hook['problem']}")
@@ -81,8 +83,16 @@ def _source_text(record: Mapping[str, Any]) -> str:
         return f"source back after {record['away_s']:.1f} s, at try {record['attempt']}"
     if record["phase"] == "resized":
         return f"pictures are {record['width']} x {record['height']} px now: the network begins anew"
+    if record["phase"] == "restarted":
+        return "the robot was switched on anew"
+    if record["phase"] == "settings":
+        return f"the robot has other settings now: preset {record['preset']}, settings {record['settings_hash']}"
     attempt = record["attempt"]
     return "" if attempt & (attempt - 1) else f"try {attempt} failed: {record['reason']}"
+
+
+def _away(summary: Mapping[str, Any]) -> str:
+    return f"lost {counted(summary['lost'], 'time')}, away {summary['away_s']:.1f} s"
 
 
 def _hook_text(record: Mapping[str, Any]) -> str:

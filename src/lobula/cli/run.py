@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import sys
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -14,21 +15,37 @@ from . import options as o
 from .call import new_app
 from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
 from .progress import Screen, screen
+from .robot import is_robot, open_robot, refuse_others
 
 if TYPE_CHECKING:
     from ..engine.network import Network
     from ..frames import FrameSource
     from ..hooks import Hook
     from ..model.network import NetworkParams
+    from ..runtime.robot import RobotStream
     from ..runtime.sinks import Sink
     from ..runtime.yaw import YawRecord
 
 app = new_app()
 
+OF_A_ROBOT = frozenset({
+    "source", "json", "trace", "report", "hook", "hook_rate", "start", "end", "stride", "max_frames", "reconnect",
+    "timeout",
+})  # fmt: skip
+"""What can be asked for when the decisions are a robot's."""
+
 
 @app.command()
 def run(
-    source: o.Source,
+    context: typer.Context,
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="SOURCE",
+            help="video, image folder, pattern, ROS bag, camera number, rtsp:// or http:// address, - for a pipe; or "
+            "serial:PORT, a robot that decides by itself",
+        ),
+    ],
     json: Annotated[bool, typer.Option("--json", help="NDJSON on standard output: header, events, summary")] = False,
     trace: Annotated[
         Path | None, typer.Option(metavar="FILE", help="every frame's reading: .csv, .jsonl, .npz or .parquet")
@@ -77,28 +94,33 @@ def run(
     starts or ends, one summary, whatever happens.
     """
     from ..engine.network import Network
+    from ..frames.selection import Selection
     from ..model.scaling import scaled
-    from ..runtime.interrupts import Interrupted
-    from ..runtime.ndjson import NdjsonSink, ReaderGoneError
     from ..runtime.opening import open as open_frames
-    from ..runtime.tally import unbegun_summary
     from ..runtime.yaw import read_yaw
-    from .destinations import check_files, check_folder
     from .live import live_options, require_live
     from .settings import choose
 
-    try:
+    if is_robot(source):
+        with _summary_if_refused(json):
+            refuse_others(context, source, OF_A_ROBOT)
+            hooks = make_hooks(hook or (), hook_rate)
+            _check_outputs(source, trace, None, None, report, hooks)
+            selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
+            robot = open_robot(source, selection, reconnect, timeout)
+            files = _file_sinks(trace, None, None, report)
+        with robot, screen(robot.frame_count, robot.name) as here:
+            return _watch_robot(robot, files, hooks, hook_rate, json, here)
+
+    with _summary_if_refused(json):
         chosen = choose(preset, neurons, config, settings or (), sensitivity)
         view = o.view(size, fit, roi, mask, flip, rotate)
         params = scaled(chosen.params, view["size"][0]) if scale_kernels else chosen.params
         network = Network(params, engine=engine)
         turns = None if yaw is None else read_yaw(yaw)
         hooks = make_hooks(hook or (), hook_rate)
-        outputs = {"--trace": trace, "--annotate": annotate, "--record": record} | hook_files(hooks)
-        if report is not None:
-            check_folder("--report", report)
-            outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
-        check_files(outputs, {"source": source, "mask": mask, "yaw file": yaw, "settings file": config}, made=report)
+        read = {"mask": mask, "yaw file": yaw, "settings file": config}
+        _check_outputs(source, trace, annotate, record, report, hooks, read)
         files = _file_sinks(trace, annotate, record, report)
         files += _kept_clips(keep, keep_before, keep_after)
         frames = open_frames(
@@ -115,6 +137,19 @@ def run(
         except ParameterError:
             frames.close()
             raise
+    with frames, screen(frames.frame_count, Path(frames.name).name) as here:
+        return _watch(frames, params, chosen.preset, network, turns, files, hooks, hook_rate, json, here)
+
+
+@contextmanager
+def _summary_if_refused(json: bool) -> Iterator[None]:
+    """Give a reader of records the summary of a run that never began, if what is done here fails."""
+    from ..runtime.interrupts import Interrupted
+    from ..runtime.ndjson import NdjsonSink, ReaderGoneError
+    from ..runtime.tally import unbegun_summary
+
+    try:
+        yield
     except (LobulaError, Interrupted) as error:
         if json:
             status = "interrupted" if isinstance(error, Interrupted) else "refused"
@@ -123,8 +158,24 @@ def run(
         if isinstance(error, OutputError):  # a folder that cannot be made: nothing was under way that could fail
             raise ParameterError(str(error)) from error
         raise
-    with frames, screen(frames.frame_count, Path(frames.name).name) as here:
-        return _watch(frames, params, chosen.preset, network, turns, files, hooks, hook_rate, json, here)
+
+
+def _check_outputs(
+    source: str,
+    trace: Path | None,
+    annotate: Path | None,
+    record: Path | None,
+    report: Path | None,
+    hooks: list[Hook],
+    read: Mapping[str, Path | None] | None = None,
+) -> None:
+    from .destinations import check_files, check_folder
+
+    outputs = {"--trace": trace, "--annotate": annotate, "--record": record} | hook_files(hooks)
+    if report is not None:
+        check_folder("--report", report)
+        outputs |= {"--report": report / "index.html", "the trace of --report": report / "trace.csv"}
+    check_files(outputs, {"source": source} | dict(read or {}), made=report)
 
 
 def _watch(
@@ -168,6 +219,26 @@ def _watch(
         here.say(f"lobula: {note}")
     if outcome.message:
         here.say(f"lobula: {outcome.message}")
+    return outcome.exit_code
+
+
+def _watch_robot(
+    robot: RobotStream, files: list[Sink], hooks: list[Hook], hook_rate: float | None, json: bool, here: Screen
+) -> int:
+    from ..runtime.header import robot_header
+    from ..runtime.ndjson import NdjsonSink
+    from ..runtime.outputs import Outputs
+    from ..runtime.robot_watch import follow_robot
+    from .live import listeners
+    from .narrator import Narrator
+
+    reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(here.say)
+    outputs = Outputs([*files, *with_hooks(reader, hooks, hook_rate)], lambda text: here.say(f"lobula: {text}"))
+    told = listeners(robot, here)
+    outcome = follow_robot(robot, outputs, robot_header(robot), on_frame=here.advance, listeners=told)
+    for note in (*robot.notes, outcome.message):
+        if note:
+            here.say(f"lobula: {note}")
     return outcome.exit_code
 
 

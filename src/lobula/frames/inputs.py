@@ -130,6 +130,8 @@ def kind_of_source(source: Any) -> tuple[Kind, str]:
     text = str(fspath(source))
     if text == "-":
         return "pipe", text
+    if text.startswith("serial:"):
+        raise ParameterError(f"source {text}: a robot sends readings, no pictures: only lobula run and serve show them")
     if camera := re.fullmatch(r"(?:/dev/video)?(\d+)", text):
         return "camera", camera[1]
     if "://" in text and not text.startswith("file://"):

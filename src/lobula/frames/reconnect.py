@@ -22,7 +22,7 @@ KEPT_NEWS = 1000
 """So many wait for somebody to ask for them; the oldest go first."""
 
 
-Phase = Literal["lost", "retry", "back", "resized"]
+Phase = Literal["lost", "retry", "back", "resized", "restarted", "settings"]
 
 
 class News(NamedTuple):
@@ -30,6 +30,8 @@ class News(NamedTuple):
 
     ``lost``: the connection broke (``reason``); ``retry``: a try failed (``attempt``, ``reason``); ``back``: a try
     succeeded (``attempt``, ``away_s`` since the loss); ``resized``: pictures have another size (``width``, ``height``).
+    Of robots only, ``restarted``: it was switched on anew; ``settings``: it has others now (``preset``,
+    ``settings_hash``).
     """
 
     phase: Phase

@@ -170,6 +170,11 @@ def source_record(phase: str, index: int, time_s: float, facts: Mapping[str, Any
     return {"type": "source", "phase": phase, "frame": index, "time_s": _told(time_s), **facts}
 
 
+def motor_record(action: str, index: int, time_s: float) -> Record:
+    """Return the record of what a robot's wheels do from frame ``index`` on."""
+    return {"type": "motor", "action": action, "frame": index, "time_s": _told(time_s)}
+
+
 def _told(time_s: float) -> float:
     """A time as a record tells it: to the microsecond, so that equal stamps read alike however they were reckoned."""
     return round(time_s, 6)

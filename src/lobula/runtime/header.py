@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .._version import __version__
 from ..frames.source import FrameSource
 from ..model.network import NetworkParams
+from ..model.presets import PRESETS, preset
 from ..params import settings_hash, walk
-from ..types import Neuron
+from ..types import NEURONS, Neuron
 from .events import Record
+
+if TYPE_CHECKING:
+    from .robot import RobotStream
 
 
 def run_header(source: FrameSource, params: NetworkParams, *, preset: str, engine: str) -> Record:
@@ -31,6 +35,30 @@ def run_header(source: FrameSource, params: NetworkParams, *, preset: str, engin
         "fps": round(float(source.fps), 6),
         "thresholds": thresholds(params),
         "settings": setting_rows(params),
+    }
+
+
+def robot_header(robot: RobotStream) -> Record:
+    """Return the header of a robot's run, as far as it says what it is: the engine is the robot.
+
+    ``settings`` are those of the preset it names where the hash agrees, else none: the robot tells no more.
+    """
+    hello = robot.hello
+    known = preset(hello.preset) if hello.preset in PRESETS else None
+    same = known is not None and settings_hash(known) == hello.settings_hash
+    return {
+        "type": "header",
+        "version": hello.version,
+        "preset": hello.preset,
+        "neurons": hello.neurons,
+        "settings_hash": hello.settings_hash,
+        "engine": "robot",
+        "source": robot.name,
+        "width": robot.width,
+        "height": robot.height,
+        "fps": round(float(robot.fps), 6),
+        "thresholds": dict(zip(NEURONS, hello.thresholds, strict=True)),
+        "settings": setting_rows(known) if known is not None and same else [],
     }
 
 

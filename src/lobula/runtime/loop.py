@@ -13,8 +13,10 @@ from .events import Record
 from .interrupts import Interrupted, Interrupts
 from .outputs import Outputs
 from .service import Listener
+from .sinks import Picture
+from .sources import F, Polled, Source
 from .tally import FAILED, REFUSED, Tally
-from .watch import Stepper, Watch
+from .watch import SourceWatch, Stepper, Watch
 
 POLL_S = 0.1
 
@@ -49,12 +51,36 @@ def run(
     A source or an output that fails, Ctrl-C and SIGTERM end the run with a summary that says so; only a fault of
     lobula's own is raised, after the outputs were closed. Events go out before the frame they name is drawn.
     """
+    return follow(
+        source, _arrivals(source), lambda tally: Watch(source, network, tally, yaw_rate_deg_s), source.picture,
+        outputs, header, on_frame, listeners,
+    )  # fmt: skip
+
+
+def follow(
+    source: Source,
+    arrivals: Iterator[F | None],
+    watched: Callable[[Tally], SourceWatch[F]],
+    picture: Picture | None,
+    outputs: Outputs,
+    header: Record,
+    on_frame: Callable[[], None] | None,
+    listeners: Sequence[Listener],
+) -> Outcome:
+    """Do what ``run`` does, whatever is followed.
+
+    Parameters
+    ----------
+    arrivals : the frames of ``source``, and None whenever it has been silent for a while
+    watched : makes what turns them into readings
+    picture : gives the whole picture of the last frame; None where there are none
+    """
     tally = Tally(source, outputs)
     with Interrupts() as interrupts:
         try:
             outputs.open(header)
-            watch = Watch(source, network, tally, yaw_rate_deg_s)
-            for frame in interrupts.between(_arrivals(source)):
+            watch = watched(tally)
+            for frame in interrupts.between(arrivals):
                 for listener in listeners:
                     listener.beat(tally.words, ready=frame is not None)
                 if frame is None:
@@ -63,7 +89,7 @@ def run(
                 else:
                     reading, records = watch.frame(frame)
                     outputs.events(records)
-                    outputs.frame(frame.index, reading, source.picture)
+                    outputs.frame(frame.index, reading, picture)
                     if on_frame is not None:
                         on_frame()
                 if outputs.deserted:
@@ -90,5 +116,10 @@ def _arrivals(source: FrameSource) -> Iterator[Frame | None]:
     if not isinstance(source, FrameStream):
         yield from source
         return
+    yield from polled(source)
+
+
+def polled(source: Polled[F]) -> Iterator[F | None]:
+    """Yield the frames of a live source, and None whenever it has been silent for ``POLL_S``."""
     while not source.ended:
         yield source.poll(POLL_S)

@@ -8,10 +8,9 @@ import time
 from collections import deque
 from typing import Any
 
-from ..frames.source import FrameSource
-from ..types import Frame
 from .events import EventLog, Record
 from .outputs import Outputs
+from .sources import Numbered, Source
 
 _TIMED = 4096  # durations kept for a median: a camera may run for weeks
 
@@ -41,7 +40,7 @@ class Durations:
 class Tally:
     """Counts what the summary tells; ``log`` holds the events."""
 
-    def __init__(self, source: FrameSource, outputs: Outputs) -> None:
+    def __init__(self, source: Source, outputs: Outputs) -> None:
         self.log = EventLog()
         self.frames = self.index = 0
         self.last_s = 0.0
@@ -57,7 +56,7 @@ class Tally:
         self._steps = Durations()
         self._latencies = Durations()
 
-    def count(self, frame: Frame, duration_s: float, latency_s: float | None) -> None:
+    def count(self, frame: Numbered, duration_s: float, latency_s: float | None) -> None:
         """Take note of a frame, how long the network took, and how long after its capture the decision stood."""
         if not self.frames:
             self._first_s = frame.time_s

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from .decoder import Decoder
 from .messages import ACTIONS, Action, RobotHello, RobotReading, hello_frame, reading_frame
-from .port import Port, SerialLine, is_port, parse_port
-from .succession import Succession
+from .port import Port, SerialLine, parse_port
+from .succession import Place, Succession
 
 __all__ = [
     "ACTIONS",
     "Action",
     "Decoder",
+    "Place",
     "Port",
     "RobotHello",
     "RobotReading",
     "SerialLine",
     "Succession",
     "hello_frame",
-    "is_port",
     "parse_port",
     "reading_frame",
 ]

@@ -41,11 +41,6 @@ class Port(NamedTuple):
     baud: int
 
 
-def is_port(source: object) -> bool:
-    """Whether a source names a robot's serial line."""
-    return isinstance(source, str) and source.startswith(PREFIX)
-
-
 def parse_port(text: str) -> Port:
     """Return ``serial:/dev/ttyUSB0@57600`` as its parts.
 
@@ -54,7 +49,7 @@ def parse_port(text: str) -> Port:
     ParameterError : another form, or a rate that this system does not have
     """
     path, at, baud = text.removeprefix(PREFIX).partition("@")
-    if not is_port(text) or not path or (at and not baud.isdecimal()):
+    if not text.startswith(PREFIX) or not path or (at and not baud.isdecimal()):
         raise ParameterError(f"{text}: must be {WANTED}")
     rate = int(baud) if at else DEFAULT_BAUD
     if rate not in RATES:
@@ -121,6 +116,7 @@ def _make_raw(fd: int, port: Port) -> None:
     control = termios.CS8 | termios.CREAD | termios.CLOCAL
     wanted = [termios.IGNBRK, 0, control, 0, code, code, characters]
     termios.tcsetattr(fd, termios.TCSANOW, wanted)
+    termios.tcflush(fd, termios.TCIFLUSH)  # what was kept from before is no news
     if termios.tcgetattr(fd)[5] != code:  # a call that succeeds need not have done all it was asked for
         raise FrameSourceError(f"{port.path}: does not run at {port.baud} baud: must be a rate of this device")
 
