@@ -18,6 +18,7 @@ pytest.importorskip("pymavlink", reason="needs pymavlink (93 MB), the extra mavl
 from pymavlink import mavutil
 
 from lobula.hooks import mavlink
+from lobula.hooks.mavlink_link import make_link
 
 
 def read(link, count):
@@ -130,6 +131,24 @@ def test_waiting_for_a_station_to_call():
     station.close()
 
 
+def test_who_calls_without_end_keeps_nothing_back():
+    class Calls:
+        count, sent = 0, ()
+
+        def recvfrom(self, _):
+            self.count += 1
+            assert self.count < 1000
+            return b"x", ("127.0.0.1", self.count)
+
+        def sendto(self, packet, at):
+            self.sent = (packet, at)
+
+    link = make_link("udpin:127.0.0.1:1")
+    link._socket = calls = Calls()
+    link.write(b"packet")
+    assert calls.sent == (b"packet", ("127.0.0.1", calls.count))
+
+
 def test_a_broadcast():
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as heard:
         heard.bind(("127.255.255.255", 0))
@@ -167,6 +186,11 @@ def test_a_serial_line():
     assert [m.get_type() for m in got] == ["HEARTBEAT", "COLLISION"]
     os.close(autopilot)
     os.close(line)
+
+
+def test_a_serial_line_without_a_rate():
+    pytest.importorskip("serial", reason="needs pyserial, the extra mavlink")
+    assert make_link("/dev/ttyACM0")._baud == 57600
 
 
 def test_a_serial_line_that_is_not_there():

@@ -213,6 +213,24 @@ def test_a_picture_is_a_copy_and_comes_at_its_own_rate():
     assert got == [0, None, None, 3, None, None]
 
 
+@pytest.mark.parametrize(("width", "kept"), [(640, 640), (1279, 1279), (1920, 640), (3840, 640)])
+def test_a_wide_picture_is_thinned_out_before_it_waits(width, kept):
+    """Forty of them may wait: of a 4K camera they would be a gigabyte."""
+
+    class WithPictures(Scripted):
+        pictures_hz = 10.0
+
+    hook, shown = WithPictures(), np.zeros((width // 2, width, 3), np.uint8)
+    shown[:] = np.arange(width, dtype=np.uint32)[:, None] * 255 // width
+    office = opened(hook)
+    office.frame(0, reading(0.0), lambda: shown)
+    office.close(SUMMARY)
+    picture = hook.got[0].picture
+    assert picture.shape[1] == kept
+    assert picture.nbytes <= 3 * kept * kept
+    np.testing.assert_array_equal(picture, shown[:: width // kept, :: width // kept])
+
+
 def test_a_request_that_is_refused_reaches_nobody():
     hook = Scripted()
     office = opened(hook)

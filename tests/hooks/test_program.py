@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shlex
+import signal
 import sys
 from pathlib import Path
 
@@ -74,6 +75,19 @@ def test_at_the_end_a_hanging_program_is_killed_and_no_other_started(tmp_path):
     wait_until(lambda: not any(alive(int(pid)) for pid in pids.read_text().split()))
     assert len(pids.read_text().split()) == 1
     assert (office.tallies()[0]["sent"], office.tallies()[0]["dropped"]) == (0, 2)
+
+
+def test_at_the_end_a_program_that_cannot_be_killed_is_not_waited_for(tmp_path, monkeypatch):
+    hook = Program([str(script(tmp_path, "exec sleep 1000"))])
+    office = opened(hook, close_s=0.05)
+    office.event(START)
+    wait_until(lambda: hook._process)
+    process, kill = hook._process, os.killpg
+    monkeypatch.setattr(os, "killpg", lambda *_: None)  # as one that waits for a disk that is gone
+    office.close(SUMMARY)
+    assert process.poll() is None
+    kill(process.pid, signal.SIGKILL)
+    process.wait(30)
 
 
 def test_a_program_that_has_gone_since(tmp_path):

@@ -98,6 +98,22 @@ def test_links_that_cannot_be(target, says):
 
 
 @pytest.mark.parametrize(
+    ("target", "name"),
+    [
+        ("http://host/secret", "http://host:80"),
+        ("https://me:word@host", "https://host:443"),
+        ("mqtt://me:word@host/robot/7", "mqtt://host:1883/robot/7"),
+        ("mqtts://[::1]/t", "mqtts://[::1]:8883/t"),
+        ("TCP:[::1]:9000", "tcp:[::1]:9000"),
+    ],
+)
+def test_what_a_hook_is_called_and_the_port_if_none_is_given(target, name):
+    if target.startswith("mqtt"):
+        pytest.importorskip("paho.mqtt", reason="needs paho-mqtt 2, the extra mqtt")
+    assert make_hook(target).name == name
+
+
+@pytest.mark.parametrize(
     ("target", "library", "extra"),
     [
         ("mqtt://host/topic", "paho.mqtt.client", "mqtt"),

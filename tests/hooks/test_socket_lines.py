@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import socket
+import threading
 
 import pytest
 
-from lobula.hooks import make_hook, socket_lines
+from lobula.hooks import make_hook, stream
 
 from .listeners import LineServer, free_port
 from .office import END, START, SUMMARY, delivered, event, opened, reading, wait_until
@@ -60,7 +61,7 @@ def test_nobody_listens(at):
 
 
 def test_a_peer_that_never_reads(at, monkeypatch):
-    monkeypatch.setattr(socket_lines, "TIMEOUT_S", 0.1)
+    monkeypatch.setattr(stream, "TIMEOUT_S", 0.1)
     server = LineServer(at, reads=False)
     hook = make_hook(target(at))
     office = opened(hook, close_s=1.0)
@@ -96,6 +97,26 @@ def test_a_host_that_nobody_knows(monkeypatch):
 
     monkeypatch.setattr(socket, "getaddrinfo", unknown)
     assert delivered(make_hook("tcp:nowhere.invalid:9000"), START)["problem"] == "Name or service not known"
+
+
+def test_a_name_server_that_never_answers_holds_up_nobody(monkeypatch):
+    asked, go = threading.Event(), threading.Event()
+
+    def ask(*_, **__):
+        asked.set()
+        go.wait(60)
+        raise socket.gaierror(-3, "Temporary failure in name resolution")
+
+    monkeypatch.setattr(socket, "getaddrinfo", ask)
+    office = opened(make_hook("tcp:robot.example:9000"), close_s=0.05)
+    office.event(START)
+    assert asked.wait(30)
+    office.close(SUMMARY)
+    assert not go.is_set()
+    assert office.tallies()[0] | {"hook": ""} == {
+        "hook": "", "sent": 0, "dropped": 2, "failures": 0, "problem": "not delivered before the end",
+    }  # fmt: skip
+    go.set()
 
 
 def test_an_ipv6_address():

@@ -65,6 +65,12 @@ def test_an_address_without_a_path(server):
     assert server.requests[0][0] == "/"
 
 
+def test_letters_of_all_alphabets_in_a_path(server):
+    tally = delivered(make_hook(at(server, "/räume/a%2Fb?wer=ö")), START)
+    assert server.requests[0][0] == "/r%C3%A4ume/a%2Fb?wer=%C3%B6"
+    assert tally["sent"] == 1
+
+
 def test_user_and_password_are_sent_and_not_told(server):
     server.answers = [401]
     tally = delivered(make_hook(at(server, user="me:pa%40ss%2Fword@")), START)

@@ -13,10 +13,13 @@ from typing import Any
 from ..errors import MissingExtraError, ParameterError, pip_install
 from .address import HostPort, host_port
 from .hook import TIMEOUT_S, RefusedError
+from .stream import check_peer, connect_tcp
 
 WANTED = "mavlink:udpout|udpin|udpbcast|tcp:HOST:PORT or mavlink:/dev/DEVICE[,BAUD]"
 BAUD = 57600
 """What telemetry radios and the second port of most autopilots are set to."""
+
+_CALLS = 100  # looked at before a packet is sent: who calls without end does not keep it back
 
 
 class Link(ABC):
@@ -112,7 +115,7 @@ class UdpListener(SocketLink):
         """
         assert self._socket is not None
         try:
-            while True:
+            for _ in range(_CALLS):
                 _, self._caller = self._socket.recvfrom(4096)
         except BlockingIOError:
             pass
@@ -122,24 +125,16 @@ class UdpListener(SocketLink):
 
 
 class TcpLink(SocketLink):
-    """Connects to a host. What it sends is read and thrown away, or the line would fill up."""
+    """Connects to a host."""
 
     def open(self) -> None:
         """Connect."""
-        self._socket = socket.create_connection(self._address, TIMEOUT_S)
-        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket = connect_tcp(self._address)
 
     def write(self, packet: bytes | bytearray) -> None:
         """Send one packet, unless the other side has hung up."""
         assert self._socket is not None
-        self._socket.setblocking(False)
-        try:
-            while self._socket.recv(65536):
-                pass
-            raise ConnectionResetError("closed by the peer")
-        except BlockingIOError:
-            pass
-        self._socket.settimeout(TIMEOUT_S)
+        check_peer(self._socket)
         self._socket.sendall(packet)
 
 

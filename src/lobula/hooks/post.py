@@ -8,6 +8,7 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..runtime.events import Record
 from ..runtime.sinks import Picture
@@ -23,6 +24,10 @@ RETRY_S, LONGEST_RETRY_S = 0.5, 30.0
 
 LAST_TRIES = 2
 """Failures in a row after which a hook is given up once the run is over: a link that broke unseen is made anew."""
+
+
+PICTURE_PX = 640
+"""Pictures are at least this wide and less than twice as wide, or as wide as they came: some may have to wait."""
 
 
 class Post:
@@ -54,8 +59,7 @@ class Post:
         if not self._carries_readings or not self._readings.due(reading.time_s):
             return
         wanted = picture is not None and self._pictures.due(reading.time_s)
-        shown = np.array(picture()) if wanted and picture is not None else None  # a copy: it is valid in this call only
-        self._put(reading_told(index, reading, shown))
+        self._put(reading_told(index, reading, _kept(picture()) if wanted and picture is not None else None))
 
     def event(self, record: Mapping[str, Any]) -> None:
         """Queue an event."""
@@ -152,3 +156,9 @@ class Post:
         self._connected = False
         with suppress(Exception):
             self._hook.disconnect()
+
+
+def _kept(picture: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """A copy of ``picture``, which is valid in this call only; of a wide one every second pixel, or third and so on."""
+    step = max(1, picture.shape[1] // PICTURE_PX)
+    return picture[::step, ::step].copy()

@@ -72,6 +72,7 @@ class Program(Hook):
             process.communicate(line(message.record), timeout=self._limit_s)
         except subprocess.TimeoutExpired as error:
             _kill(process)
+            process.wait()
             raise RefusedError(f"killed after {self._limit_s:g} s") from error
         finally:
             with self._lock:
@@ -85,8 +86,8 @@ class Program(Hook):
         """Kill the program that is running, and start no other."""
         with self._lock:
             self._aborted = True
-            if self._process is not None:
-                _kill(self._process)
+            if self._process is not None and self._process.returncode is None:
+                _kill(self._process)  # its end is not waited for: the run has its own
 
     def _start(self) -> subprocess.Popen[bytes]:
         with self._lock:
@@ -102,4 +103,3 @@ class Program(Hook):
 def _kill(process: subprocess.Popen[bytes]) -> None:
     with suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
-    process.wait()

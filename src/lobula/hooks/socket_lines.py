@@ -8,8 +8,9 @@ from abc import ABC, abstractmethod
 from ..errors import ParameterError
 from ..runtime.events import Record
 from .address import HostPort, host_port
-from .hook import TIMEOUT_S, Hook
+from .hook import Hook
 from .message import Message, header_told, line
+from .stream import check_peer, connect_tcp, connect_unix
 
 _LONGEST_PATH = 107  # bytes in sockaddr_un without the closing zero; macOS has 103 and says so itself
 
@@ -32,7 +33,7 @@ def make(target: str) -> Hook:
 class SocketLines(Hook, ABC):
     """Sends the header at the start of each connection, then a line for each record.
 
-    A connection that was broken, or blocked for longer than ``TIMEOUT_S``, is given up: the next one starts with a
+    A connection that was broken, or blocked for ``hook.TIMEOUT_S``, is given up: the next one starts with a
     whole line. What the peer sends is thrown away.
     """
 
@@ -43,13 +44,12 @@ class SocketLines(Hook, ABC):
     def connect(self, header: Record) -> None:
         """Connect and send the header."""
         self._socket = self._connected()
-        self._socket.settimeout(TIMEOUT_S)
         self._socket.sendall(line(header_told(header)))
 
     def send(self, message: Message) -> None:
         """Send one line; a peer that has hung up is noticed before, so that the line is not lost with it."""
         assert self._socket is not None
-        self._check_peer(self._socket)
+        check_peer(self._socket)
         self._socket.sendall(line(message.record))
 
     def disconnect(self) -> None:
@@ -61,29 +61,16 @@ class SocketLines(Hook, ABC):
     @abstractmethod
     def _connected(self) -> socket.socket: ...
 
-    def _check_peer(self, connection: socket.socket) -> None:
-        connection.setblocking(False)
-        try:
-            while connection.recv(4096):
-                pass
-            raise ConnectionResetError("closed by the peer")
-        except BlockingIOError:
-            pass
-        finally:
-            connection.settimeout(TIMEOUT_S)
-
 
 class TcpLines(SocketLines):
-    """Lines over TCP; the host may have several addresses, each is tried."""
+    """Lines over TCP."""
 
     def __init__(self, address: HostPort) -> None:
         super().__init__(f"tcp:{address}")
         self._address = address
 
     def _connected(self) -> socket.socket:
-        connection = socket.create_connection(self._address, TIMEOUT_S)
-        connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)  # an alarm does not wait for company
-        return connection
+        return connect_tcp(self._address)
 
 
 class UnixLines(SocketLines):
@@ -94,11 +81,4 @@ class UnixLines(SocketLines):
         self._path = path
 
     def _connected(self) -> socket.socket:
-        connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
-        try:
-            connection.settimeout(TIMEOUT_S)
-            connection.connect(self._path)
-        except OSError:
-            connection.close()
-            raise
-        return connection
+        return connect_unix(self._path)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import http.client
 import json
+from urllib.parse import quote
 
 from .._version import __version__
 from .address import Url, split_url
@@ -37,6 +38,7 @@ class Webhook(Hook):
     def __init__(self, url: Url) -> None:
         super().__init__(url.shown)
         self._url = url
+        self._path = quote(url.path, safe="/?=&%:;,+!$'()*~[]") or "/"  # what is encoded already stays
         self._headers = {"Content-Type": "application/json", "User-Agent": f"lobula/{__version__}"}
         if url.user is not None:
             pair = f"{url.user}:{url.password or ''}".encode()
@@ -54,7 +56,7 @@ class Webhook(Hook):
         connection = kind(*self._url.address, timeout=TIMEOUT_S)
         try:
             body = json.dumps(message.record, allow_nan=False)
-            connection.request("POST", self._url.path or "/", body, self._headers)
+            connection.request("POST", self._path, body, self._headers)
             status = connection.getresponse().status
         except http.client.HTTPException as error:
             raise ConnectionError(f"no answer in HTTP ({type(error).__name__})") from error
