@@ -53,7 +53,7 @@ def test_every_setting_is_there_with_its_value_meaning_and_origin(name):
             assert word in comment, path
     assert {name: value for name, (value, _) in found.items() if name != "LOBULA_VERSION"} == {
         "LOBULA_PRESET": f'"{name}"', "LOBULA_SETTINGS_HASH": f'"{settings_hash(params)}"', "LOBULA_WIDTH": "99",
-        "LOBULA_HEIGHT": "72", "LOBULA_LPTC_EMD_SPANS": "4",
+        "LOBULA_HEIGHT": "72", "LOBULA_LPTC_EMD_SPANS": "4", "LOBULA_LPTC_EMD_WIDEST_PX": "4",
     }  # fmt: skip
 
 
@@ -82,6 +82,7 @@ def test_what_was_set_by_hand_says_so():
     )  # fmt: skip
     found = macros(config_header(params, "lobula", 64, 48))
     assert found["LOBULA_LPTC_EMD_SPANS"][0] == "2"
+    assert found["LOBULA_LPTC_EMD_WIDEST_PX"][0] == "5"
     assert found["LOBULA_LPTC_EMD_DELAYS_MS"] == ("{33.0f, 0.1f}", "delay of each span, ms (file my.toml)")
     assert found["LOBULA_LGMD1_SIGMOID_GREY"][0] == "1e-06f"
     assert found["LOBULA_LGMD1_READS"][0] == "1"

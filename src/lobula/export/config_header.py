@@ -56,6 +56,7 @@ def _macros(params: NetworkParams) -> Iterator[str]:
         value = getattr(owner, name)
         if path == "lptc.emd.spans_px":
             yield f"#define {macro_name('lptc.emd.spans')} {len(value)} /* how many pairs of cells there are */"
+            yield f"#define {macro_name('lptc.emd.widest_px')} {max(value)} /* the largest distance, px */"
         yield f"#define {macro_name(path)} {_c_value(owner, name, value)} /* {_remark(owner, name, value)} */"
 
 

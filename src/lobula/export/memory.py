@@ -14,9 +14,6 @@ MAX_SIDE = 4096
 HEADER = 1264
 """Bytes of the settings, the sizes and the numbers that change with each step."""
 
-SETS = 4
-"""Inhibitions computed apart: both channels of both LGMDs."""
-
 
 def require_size(width: int, height: int) -> None:
     """Check the size of the picture.
@@ -48,7 +45,7 @@ def state_bytes(params: NetworkParams, width: int, height: int) -> int:
     remembered = HEADER + _eights(4 * (inner + outer + 2)) + 24 * steps + _eights(pixels) + _eights(cell * pixels)
 
     margin = max(spacing, outer, 4 * max(params.lptc.emd.spans_px))
-    short_rows = 2 * outer + 2 + 2 * SETS * ring + SETS + 2 * ring
+    short_rows = 2 * outer + 2 + 10 * ring + 4
     long_rows = 4 * (outer > 0) + (2 if fdsr else 8) + len(layers) * (2 * excited + 4) + 4
     floats = short_rows * width + long_rows * (2 * margin + width + 1)
     return remembered + _eights(4 * floats) + 2 * _eights(2 * (pixels + 1))
