@@ -42,12 +42,13 @@ def send(frame: bytes) -> None:
 net = lobula.Network(params)
 images = lobula.stimuli.looming(scene="arena").images
 rounds = itertools.count() if "forever" in sys.argv else range(1)
-begun_s = time.monotonic()
+begun_s = due_s = time.monotonic()
 collisions, number, alarm, avoiding_until = 0, 0, False, -1
 
 try:
     for image in (image for _ in rounds for image in images):
-        time.sleep(max(0.0, begun_s + number / RATE_HZ - time.monotonic()))
+        due_s = max(due_s + 1 / RATE_HZ, time.monotonic())  # a picture that is late does not hurry the next
+        time.sleep(max(0.0, due_s - time.monotonic()))
         step_s = time.perf_counter()
         reading = net.step(image, time_s=number / RATE_HZ)
         step_us = round(1e6 * (time.perf_counter() - step_s))
@@ -59,7 +60,7 @@ try:
         action = "forward" if left <= 0 else "stop" if left > 0.8 * RATE_HZ else "turn_left"
         potentials = (reading.lgmd1, reading.lgmd2, reading.lptc_r, reading.lptc_l)
         told = RobotReading(
-            sequence=number, frame=number, time_ms=1000 * number // RATE_HZ, potentials=potentials,
+            sequence=number, frame=number, time_ms=round(1000 * (due_s - begun_s)), potentials=potentials,
             spikes=reading.spikes, collision=reading.collision, state=reading.state, action=action, step_us=step_us,
         )  # fmt: skip
         if number % HELLO_EVERY == 0:

@@ -17,6 +17,7 @@ PRINTS = {
     "look_inside.py": ("lgmd2_grouped", "net motion is rightward"),
     "score_own_clips.py": ("comes.mp4", "hits 2 of 2, false alarms 0"),
     "arena_own_detector.py": ("own detector: ", "the network: ", "chance: ", "SR1"),
+    "serial_robot.py": ("serial:/dev/", "124 readings sent, collisions: 1"),
     "arena_environment.py": ("robot_3: ", " gained, ", " CP"),
 }
 NEEDS = {"arena_environment.py": "pettingzoo"}

@@ -15,6 +15,7 @@ from ..errors import ParameterError
 from . import options as o
 from .call import new_app
 from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
+from .robot import is_robot, open_robot, refuse_others
 
 if TYPE_CHECKING:
     from ..dashboard.board import Board
@@ -23,10 +24,17 @@ if TYPE_CHECKING:
     from ..frames import FrameSource
     from ..hooks import Hook
     from ..model.network import NetworkParams
+    from ..runtime.robot import RobotStream
     from ..runtime.sinks import Sink
     from ..runtime.yaw import YawRecord
 
 app = new_app()
+
+OF_A_ROBOT = frozenset({
+    "source", "json", "host", "port", "token", "allow_host", "hook", "hook_rate", "start", "end", "stride",
+    "max_frames", "reconnect", "timeout",
+})  # fmt: skip
+"""What can be asked for when the decisions are a robot's."""
 
 PORT = 8040
 KEPT_ROWS = 4096
@@ -35,11 +43,13 @@ KEPT_ROWS = 4096
 
 @app.command()
 def serve(
+    context: typer.Context,
     source: Annotated[
         str,
         typer.Argument(
             metavar="SOURCE",
-            help="camera number, address or - for a pipe: live; video, image folder, pattern or saved trace: replayed",
+            help="camera number, address or - for a pipe: live; video, image folder, pattern or saved trace: replayed; "
+            "serial:PORT: a robot, live",
         ),
     ],
     json: Annotated[bool, typer.Option("--json", help="NDJSON on standard output: the address, then events")] = False,
@@ -88,6 +98,7 @@ def serve(
     """
     from ..dashboard.live_settings import LiveSettings
     from ..dashboard.server import Site
+    from ..frames.selection import Selection
     from ..model.scaling import scaled
     from ..report.trace_file import TRACE_SUFFIXES
     from ..runtime.opening import open as open_frames
@@ -102,8 +113,15 @@ def serve(
             also_known_as=allow_host or (),
         )  # fmt: skip
 
+    if is_robot(source):
+        refuse_others(context, source, OF_A_ROBOT)
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     hooks = make_hooks(hook or (), hook_rate)
+    if is_robot(source):
+        check_files(hook_files(hooks))
+        selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
+        with open_robot(source, selection, reconnect, timeout) as robot:
+            return _watch_robot(robot, hooks, hook_rate, site, json)
     if Path(source).suffix.lower() in TRACE_SUFFIXES:
         _refuse_hooks(hooks, source)
         return _show_trace(Path(source), site, json)
@@ -167,6 +185,36 @@ def _watch(
         outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, listeners=listeners(frames))
         if outcome.message:
             say(f"lobula: {outcome.message}")
+        return outcome.exit_code
+
+
+def _watch_robot(
+    robot: RobotStream, hooks: list[Hook], hook_rate: float | None, make: Callable[[Board], Site], json: bool
+) -> int:
+    """Show what a robot decides, with nothing to change."""
+    from ..dashboard.about import about_run
+    from ..dashboard.board import Board
+    from ..dashboard.robot_sink import RobotSink
+    from ..dashboard.rows import Rows
+    from ..runtime.header import robot_header
+    from ..runtime.ndjson import NdjsonSink
+    from ..runtime.outputs import Outputs
+    from ..runtime.robot_watch import follow_robot
+    from .live import listeners
+    from .narrator import Narrator
+    from .progress import say
+
+    header = robot_header(robot)
+    board = Board(about_run("robot", header, None), Rows(keep=KEPT_ROWS))
+    with make(board) as site:
+        _announce(site, "robot", robot.name, json)
+        reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(say)
+        sinks = [RobotSink(board, robot), *with_hooks(reader, hooks, hook_rate, also=board.add_event)]
+        outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
+        outcome = follow_robot(robot, outputs, header, listeners=listeners(robot))
+        for note in (*robot.notes, outcome.message):
+            if note:
+                say(f"lobula: {note}")
         return outcome.exit_code
 
 

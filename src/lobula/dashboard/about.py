@@ -23,12 +23,13 @@ _FACTS = ("source", "preset", "neurons", "engine", "width", "height", "fps", "se
 def about_run(mode: str, header: Mapping[str, Any], settings: LiveSettings | None) -> dict[str, Any]:
     """Return what stays the same.
 
-    ``mode`` is "live", "recording" or "trace"; ``header`` that of the run, or what a saved trace remembers of it.
+    ``mode`` is "live", "robot", "recording" or "trace"; ``header`` that of the run, or what a saved trace
+    remembers of it.
     """
     source = str(header.get("source", ""))
     return {
         "mode": mode,
-        "name": source if "://" in source else Path(source).name or source,
+        "name": source if "://" in source or mode == "robot" else Path(source).name or source,
         "facts": {key: header[key] for key in _FACTS if key in header},
         "lobula": __version__,
         "neurons": [

@@ -53,7 +53,8 @@ class RobotStream:
     timeout_s : how long to wait for the robot to say what it is
     reconnect_s : how long to look for a port that went away; 0 not at all, infinity for ever
 
-    Attributes are those of a frame source, and ``hello``, what the robot said of itself first.
+    Attributes are those of a frame source; ``hello``, what the robot said of itself first; ``last``, the reading that
+    was delivered last, or None.
 
     Raises
     ------
@@ -76,6 +77,7 @@ class RobotStream:
         self._heard: RobotHello | None = None
         self._succession = Succession()
         self._overtaken = self._delivered = 0
+        self.last: RobotFrame | None = None
         self._ended = False
         self._error: Exception | None = None
 
@@ -146,7 +148,8 @@ class RobotStream:
         if picture is None:
             return None
         self._delivered += 1
-        return _in_place(picture)
+        self.last = _in_place(picture)
+        return self.last
 
     def close(self) -> None:
         """Stop reading."""
