@@ -25,6 +25,8 @@ pytest.importorskip("foxglove", reason="needs foxglove-sdk (55 MB), the extra fo
 pytest.importorskip("websockets", reason="needs websockets, of the extra dashboard")
 from websockets.sync.client import connect
 
+from lobula.hooks import foxglove
+
 CHANNELS = {
     "/lobula/reading": "lobula.Reading", "/lobula/event": "lobula.Event",
     "/lobula/log": "foxglove.Log", "/lobula/picture": "foxglove.CompressedImage",
@@ -166,7 +168,8 @@ def asleep(hook):
     return link
 
 
-def test_a_viewer_that_never_reads_holds_up_nobody():
+def test_a_viewer_that_never_reads_holds_up_nobody(monkeypatch):
+    monkeypatch.setattr(foxglove, "_GOODBYE_S", 0.1)
     with served() as (look, hook, office):
         with asleep(hook):
             wait_until(looking(hook, "/lobula/picture"))

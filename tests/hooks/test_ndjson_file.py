@@ -13,7 +13,7 @@ import pytest
 from lobula.errors import OutputError
 from lobula.hooks import make_hook, ndjson_file
 
-from .office import END, HEADER, START, SUMMARY, delivered, event, opened, reading
+from .office import END, HEADER, START, SUMMARY, delivered, event, opened, reading, wait_until
 
 
 def records(path):
@@ -68,7 +68,8 @@ def test_a_disk_that_fills_up_inside_a_line_leaves_no_half_of_it(tmp_path, monke
 def test_a_named_pipe_nobody_reads_and_one_that_is_read(tmp_path, monkeypatch):
     path = tmp_path / "pipe"
     os.mkfifo(path)
-    assert delivered(make_hook(f"ndjson:{path}"), START)["dropped"] == 2
+    unread = delivered(make_hook(f"ndjson:{path}"), START)
+    assert (unread["dropped"], unread["problem"]) == (2, "nobody reads it")
     heard = []
     reader = threading.Thread(target=lambda: heard.extend(path.read_text().splitlines()))
     reader.start()
@@ -82,9 +83,10 @@ def test_a_named_pipe_whose_reader_is_asleep(tmp_path, monkeypatch):
     path = tmp_path / "pipe"
     os.mkfifo(path)
     asleep = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-    office = opened(make_hook(f"ndjson:{path}"), close_s=1.0)
+    office = opened(make_hook(f"ndjson:{path}"), close_s=0.05)
     for number in range(1500):  # far more than the 64 KiB a pipe holds
         office.event(event(number))
+    wait_until(lambda: office.tallies()[0]["failures"])
     office.close(SUMMARY)
     os.close(asleep)
     (tally,) = office.tallies()

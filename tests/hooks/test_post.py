@@ -293,6 +293,7 @@ def test_a_reading_has_the_columns_of_a_trace():
     [
         (OSError(28, "No space left on device"), "No space left on device"),
         (TimeoutError("timed out"), "timed out"),
+        (TimeoutError("_ssl.c:989: The handshake operation timed out"), "The handshake operation timed out"),
         (socket.gaierror(-2, "Name or service not known"), "Name or service not known"),
         (OSError(), "OSError"),
     ],

@@ -64,12 +64,13 @@ def test_a_peer_that_never_reads(at, monkeypatch):
     monkeypatch.setattr(stream, "TIMEOUT_S", 0.1)
     server = LineServer(at, reads=False)
     hook = make_hook(target(at))
-    office = opened(hook, close_s=1.0)
+    office = opened(hook, close_s=0.05)
     big = event(0) | {"text": "x" * 60_000}  # fills any buffer of the system soon
     for _ in range(3000):
         office.event(big)
     (post,) = office._posts
     assert len(post._mailbox) <= hook.events_kept
+    wait_until(lambda: office.tallies()[0]["failures"])
     office.close(SUMMARY)
     (tally,) = office.tallies()
     assert tally["sent"] + tally["dropped"] == 3001

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 
 from ..runtime.events import Record
@@ -120,4 +121,5 @@ def _reason(error: Exception) -> str:
         text = str(error)
     else:
         text = f"{type(error).__name__}: {error}"
+    text = re.sub(r"_ssl\.c:\d+: | \(_ssl\.c:\d+\)", "", text)  # where in Python's own source it was noticed
     return next(iter(text.splitlines()), type(error).__name__)

@@ -14,6 +14,8 @@ from ..runtime.events import Record
 from .hook import TIMEOUT_S, Hook
 from .message import Message, header_told, line
 
+_UNREAD = "nobody reads it"
+
 
 def make(target: str) -> Hook:
     """Return the hook of ``ndjson:FILE``.
@@ -74,7 +76,12 @@ class NdjsonFile(Hook):
             self._file = -1
 
     def _open(self, how: int = 0) -> None:
-        self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_NONBLOCK | how, 0o666)
+        try:
+            self._file = os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_APPEND | os.O_NONBLOCK | how, 0o666)
+        except OSError as error:
+            if error.errno == errno.ENXIO:  # a named pipe
+                raise OSError(errno.ENXIO, _UNREAD) from error
+            raise
 
     def _write(self, data: bytes) -> None:
         """Write a whole line, or take back what was written of it."""
@@ -84,7 +91,7 @@ class NdjsonFile(Hook):
             while written < len(data):
                 _, ready, _ = select.select([], [self._file], [], max(0.0, deadline_s - time.monotonic()))
                 if not ready:
-                    raise TimeoutError(errno.ETIMEDOUT, "nobody reads it")
+                    raise TimeoutError(errno.ETIMEDOUT, _UNREAD)
                 written += os.write(self._file, data[written:])
         except OSError:
             if written:

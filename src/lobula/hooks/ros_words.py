@@ -52,13 +52,16 @@ def reading_status(record: Mapping[str, Any]) -> Status:
 
 
 def status(record: Mapping[str, Any]) -> Status:
-    """Return an event or the summary as a status: a collision is an error, a lost or silent source is stale."""
+    """Return an event or the summary as a status: a collision is an error, a lost or silent source is stale.
+
+    A state or a hook's trouble that begins is a warning.
+    """
     kind, phase = record["type"], record.get("phase")
     if (kind, phase) == ("collision", "start"):
         level = ERROR
     elif (kind, phase) == ("source", "lost") or (record.get("state"), phase) == ("stale", "start"):
         level = STALE
-    elif kind == "state" and phase == "start":
+    elif kind in ("state", "hook") and phase == "start":
         level = WARN
     else:
         level = OK

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-_WORDS = ("type", "id", "state", "phase", "status")
+_WORDS = ("type", "hook", "id", "state", "phase", "status")
 
 
 def said(record: Mapping[str, Any]) -> str:
     """Return an event or the summary as text, such as ``collision 1 start`` or ``source lost: no answer``."""
     words = " ".join(str(record[key]) for key in _WORDS if record.get(key)).replace("_", " ")
-    return f"{words}: {record['reason']}" if record.get("reason") else words
+    why = record.get("reason") or record.get("problem")
+    return f"{words}: {why}" if why else words
 
 
 def warns(record: Mapping[str, Any]) -> bool:
