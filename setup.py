@@ -6,6 +6,7 @@ the core and runs on its NumPy reference.
 
 import os
 import shlex
+import shutil
 import subprocess
 import sys
 import warnings
@@ -14,20 +15,25 @@ from pathlib import Path
 from setuptools import Extension, setup
 from setuptools.command.bdist_wheel import bdist_wheel
 from setuptools.command.build_ext import build_ext
+from setuptools.command.build_py import build_py
 
 SOURCE = Path("core/src")
-FLAGS = ["-std=c99", "-O3", "-fPIC", "-fvisibility=hidden", "-Icore/include"]
+FLAGS = ["-std=c99", "-O3", "-fPIC", "-fvisibility=hidden", "-DLOBULA_LAPTOP", "-Icore/include"]
 # The loops over pixels may fuse and reorder nothing else; never -ffast-math, which changes the caller's process.
 LOOPS = ["-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros", "-ffinite-math-only", "-ffp-contract=fast"]
 # Times, spikes and decisions are computed exactly as in Python.
 SCALARS = ["-ffp-contract=off"]
 VARIANTS = {
     "base": [],
-    "v3": ["-march=x86-64", "-mavx2", "-mfma", "-mtune=generic"],
+    "v3": ["-march=x86-64", "-mavx2", "-mfma", "-mf16c", "-mtune=generic"],
     "v4": ["-march=x86-64", "-mavx512f", "-mavx512vl", "-mavx512bw", "-mavx512dq", "-mavx2", "-mfma",
            "-mprefer-vector-width=512", "-mtune=generic"],
 }  # fmt: skip
-PER_VARIANT = {"sweep.c", "eye_sensor.c"}
+LOOPS_OF: dict[str, dict[str, list[str]]] = {
+    "sweep.c": {"": [], "compact": ["-DLOBULA_COMPACT_PLANES"]},
+    "eye_sensor.c": {"": []},
+}
+"""Files with loops over pixels, each built for every variant; the network's also for every storage of its planes."""
 
 
 class BuildCore(build_ext):
@@ -59,9 +65,8 @@ class BuildCore(build_ext):
         target.parent.mkdir(parents=True, exist_ok=True)
         objects = []
         for source in sorted(SOURCE.glob("*.c")):
-            for variant in variants if source.name in PER_VARIANT else [""]:
-                own = [*LOOPS, *VARIANTS[variant], f"-DLOBULA_ISA={variant}"] if variant else [*SCALARS, *dispatch]
-                objects.append(str(folder / f"{source.stem}{variant}.o"))
+            for name, own in _builds(source.name, variants, dispatch):
+                objects.append(str(folder / f"{source.stem}{name}.o"))
                 self._call([*compiler, *FLAGS, *own, "-c", str(source), "-o", objects[-1]])
         strip = [] if sys.platform == "darwin" else ["-s"]
         self._call([*compiler, "-shared", *strip, "-o", str(target), *objects, "-lm"])
@@ -69,6 +74,37 @@ class BuildCore(build_ext):
     def _call(self, command: list[str]) -> None:
         print(shlex.join(command))
         subprocess.run(command, check=True)
+
+
+def _builds(source: str, variants: list[str], dispatch: list[str]) -> list[tuple[str, list[str]]]:
+    """Return what an object file of ``source`` is called besides, and its own flags, for each of them."""
+    if source not in LOOPS_OF:
+        return [("", [*SCALARS, *dispatch])]
+    return [
+        (f"{variant}{storage}", [*LOOPS, *VARIANTS[variant], f"-DLOBULA_ISA={variant}", *flags])
+        for variant in variants
+        for storage, flags in LOOPS_OF[source].items()
+    ]
+
+
+class BuildPython(build_py):
+    """Put the C sources that ``lobula export`` hands out into the package, side by side."""
+
+    folder = "lobula/export/c"
+    files = (*Path("core/robot/files.txt").read_text(encoding="utf-8").split(), "LICENSE")
+
+    def run(self) -> None:
+        super().run()
+        if not self.editable_mode:  # a checkout has them in core
+            target = Path(self.build_lib) / self.folder
+            shutil.rmtree(target, ignore_errors=True)
+            target.mkdir(parents=True)
+            for name in self.files:
+                shutil.copyfile(name, target / Path(name).name)
+
+    def get_outputs(self, include_bytecode: bool = True) -> list[str]:
+        own = [] if self.editable_mode else [f"{self.build_lib}/{self.folder}/{Path(name).name}" for name in self.files]
+        return [*super().get_outputs(include_bytecode), *own]
 
 
 class PlainWheel(bdist_wheel):
@@ -80,5 +116,5 @@ class PlainWheel(bdist_wheel):
 
 setup(
     ext_modules=[Extension("lobula.engine.liblobula", [], optional=True)],
-    cmdclass={"build_ext": BuildCore, "bdist_wheel": PlainWheel},
+    cmdclass={"build_ext": BuildCore, "build_py": BuildPython, "bdist_wheel": PlainWheel},
 )

@@ -19,7 +19,7 @@ STREAMS = 64
 def figures(rounds: int, quick: bool) -> list[Figure]:
     """Ask the core for its state, and Python for all it holds of a stream."""
     p = preset("published")
-    state = library().lobula_state_size(core_params(p), 99, 72)
+    state = library().lobula_state_size(core_params(p), 99, 72, 0)
     workspace = Workspace(p, (72, 99))
     image = np.zeros((72, 99), np.uint8)
     tracemalloc.start()

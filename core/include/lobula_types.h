@@ -1,18 +1,41 @@
-/* What the laptop's and the robot's lobula.h have in common: the settings and the reading. */
+/* What the laptop's and the robot's lobula.h have in common: settings, readings, and the numbers of a state. */
 #ifndef LOBULA_TYPES_H
 #define LOBULA_TYPES_H
 
 #include <stdint.h>
 
-/* Numbers of which there are a few in a step, not one a pixel: double, or float where the robot's processor has no
- * doubles. Times are always double. */
-#if defined(LOBULA_ROBOT)
-typedef float lobula_real;
-#else
+/* Numbers of which a step has a few, not one a pixel: double on a laptop, which says so by LOBULA_LAPTOP; float on a
+ * robot, whose processor counts in nothing larger. Times are always double. */
+#if defined(LOBULA_LAPTOP)
 typedef double lobula_real;
+#else
+typedef float lobula_real;
 #endif
 
+/* Alignment of a state and of a workspace, bytes. */
+#if defined(LOBULA_LAPTOP)
+#define LOBULA_ALIGN 64
+#else
+#define LOBULA_ALIGN 8
+#endif
+
+#define LOBULA_MIN_WIDTH 32
+#define LOBULA_MIN_HEIGHT 24
+#define LOBULA_MAX_SIDE 32768
 #define LOBULA_MAX_SPANS 8
+
+/* What a call returns: 0, or the reason why nothing was done. */
+enum {
+    LOBULA_OK = 0,
+    LOBULA_BAD_ARGUMENT = -1, /* a null pointer, a size or a setting that cannot be */
+    LOBULA_BAD_STATE = -2     /* not a state of lobula_init, or of another ABI */
+};
+
+enum { LOBULA_UINT8 = 0, LOBULA_FLOAT32 = 1 };
+
+/* How the planes of a state are kept: as floats; or the luma as bytes and all else as 16-bit floats, as on a robot.
+ * A compact network takes pictures of bytes only. */
+enum { LOBULA_FLOAT = 0, LOBULA_COMPACT = 1, LOBULA_STORAGES };
 
 /* ---- Settings: the fields, names and units of the Python package, which documents each of them. -------------- */
 /* Numbers are all of one type: switches are 0 or 1, choices count from 0 in the order of the comment. */
@@ -113,9 +136,39 @@ typedef struct {
     double time_s;
     lobula_real lgmd1, lgmd2;   /* membrane potentials in [0.5, 1) */
     lobula_real lptc_r, lptc_l; /* in [0, 1) and (-1, 0] */
-    int32_t spikes[4];     /* lgmd1, lgmd2, lptc_r, lptc_l */
-    int32_t collision;     /* 0 or 1 */
-    int32_t state;         /* LOBULA_STATE_... */
+    int32_t spikes[4];          /* lgmd1, lgmd2, lptc_r, lptc_l */
+    int32_t collision;          /* 0 or 1 */
+    int32_t state;              /* LOBULA_STATE_... */
 } lobula_reading;
+
+/* Maps of a step, each (height, width) float32, given as an array of pointers in this order; NULL: not wanted. */
+enum {
+    LOBULA_TAP_CHANGE, LOBULA_TAP_LAMINA, LOBULA_TAP_ADAPTED_ON, LOBULA_TAP_ADAPTED_OFF, LOBULA_TAP_MOTION,
+    LOBULA_TAP_LGMD1_INHIBITION_ON, LOBULA_TAP_LGMD1_INHIBITION_OFF, LOBULA_TAP_LGMD1_SUMMATION,
+    LOBULA_TAP_LGMD1_GROUPED,
+    LOBULA_TAP_LGMD2_INHIBITION_ON, LOBULA_TAP_LGMD2_INHIBITION_OFF, LOBULA_TAP_LGMD2_SUMMATION,
+    LOBULA_TAP_LGMD2_GROUPED,
+    LOBULA_TAPS
+};
+
+/* ---- What is remembered beside the planes. --------------------------------------------------------------------- */
+
+typedef struct {
+    lobula_real raw, potential, change_before;
+} lobula_lgmd_scalars;
+
+typedef struct {
+    double time_s;
+    lobula_real lgmd1, lgmd2, lptc;
+} lobula_decision_entry;
+
+/* A time that was never set is told by its has_ flag. */
+typedef struct {
+    double frame_s, tick_s, step_s, started_s, turned_s, held_s;
+    int32_t has_frame, has_turned, has_held;
+    int32_t still, flashing;
+    lobula_lgmd_scalars lgmd1, lgmd2;
+    lobula_real rightward, leftward;
+} lobula_scalars;
 
 #endif

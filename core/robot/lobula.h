@@ -19,37 +19,38 @@
 #include <stdint.h>
 
 #include "lobula_config.h"
+#include "lobula_sizes.h"
 #include "lobula_types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-#define LOBULA_STATE_BYTES 150000 /* becomes a sum of the sizes of all parts */
-
 /* Everything a network remembers, and its room to work in. */
 typedef struct {
+    double time_s;
+    int32_t rows, turning, ready;
     union {
         double aligned;
-        uint8_t bytes[LOBULA_STATE_BYTES];
+        uint8_t bytes[LOBULA_MEMORY_BYTES];
     } memory;
 } lobula_state;
 
-/* Make the network ready for its first frame; also forgets everything. */
-void lobula_init(lobula_state *state);
+/* Make the network ready for its first frame, or forget everything. LOBULA_BAD_ARGUMENT: the settings cannot be. */
+int lobula_init(lobula_state *state);
 
 /* Advance by one frame: LOBULA_HEIGHT rows of LOBULA_WIDTH bytes, luminance 0..255, row by row. `dt_ms` is the time
- * since the frame before (of the first frame: whatever). Returns reading->collision. */
+ * since the frame before (of the first frame: whatever). Returns reading->collision, 0 or 1; or an error below 0, and the
+ * reading is as it was: LOBULA_BAD_STATE without lobula_init, LOBULA_BAD_ARGUMENT where dt_ms is not above 0. */
 int lobula_step(lobula_state *state, const uint8_t *luma, float dt_ms, lobula_reading *reading);
 
-/* The same in parts. A line may be used for something else as soon as the call returns. More lines than
- * LOBULA_HEIGHT are not looked at; lines that are missing at the end stay as in the frame before. Returns how many lines
- * of this frame are there. */
+/* The same in parts. A line may be used for something else as soon as the call returns. More lines than LOBULA_HEIGHT
+ * are not looked at; lines that are missing at the end stay as in the frame before. Returns how many are there. */
 int lobula_push_row(lobula_state *state, const uint8_t *row);
 int lobula_end_frame(lobula_state *state, float dt_ms, lobula_reading *reading);
 
-/* Say whether the robot turns, before the frame that is taken meanwhile: nothing is decided then, nor for
- * LOBULA_DECISION_AFTER_TURN_MS more. */
+/* Say that the robot turns (1) or no longer does (0), before the frame that is taken meanwhile: nothing is decided
+ * then, nor for LOBULA_DECISION_AFTER_TURN_MS more. */
 void lobula_set_turning(lobula_state *state, int turning);
 
 #ifdef __cplusplus

@@ -104,6 +104,7 @@
 #define LOBULA_LGMD2_SPIKING_GAIN 4.0f /* K_sp (paper Sec. III) */
 #define LOBULA_LGMD2_SPIKING_THRESHOLD 0.7f /* T_sp, of the potential's magnitude (paper Sec. III) */
 #define LOBULA_LPTC_EMD_SPANS 4
+#define LOBULA_LPTC_EMD_WIDEST_PX 4
 #define LOBULA_LPTC_EMD_SPANS_PX {1, 2, 3, 4} /* distances of the paired cells, px (chosen: what passes a robot moves 1 to 3 px) */
 #define LOBULA_LPTC_EMD_DELAYS_MS {40.0f, 30.0f, 20.0f, 10.0f} /* delay of each span, ms (published code: LPLC2) */
 #define LOBULA_LPTC_SIGMOID_GREY2 0.002f /* K_hs: net motion for each pixel that drives the sigmoid, grey^2 (calibrated on the synthetic battery at 30 Hz (docs/calibration.md)) */

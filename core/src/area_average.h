@@ -5,8 +5,6 @@
 #include "picture.h"
 #include "resize.h"
 
-static const uint8_t *bytes_row(const picture *p, int y) { return (const uint8_t *)picture_row(p, y); }
-
 /* sums = share * row, or added to it. */
 INLINE void add_row(const picture *p, int y, float share, float *restrict sums, int n, int fresh) {
     const char *row = picture_row(p, y);
@@ -23,11 +21,11 @@ INLINE void add_row(const picture *p, int y, float share, float *restrict sums, 
 static void add_whole_rows(const picture *p, int y, int end, uint16_t *restrict whole, float *restrict sums, int n) {
     memset(whole, 0, (size_t)n * sizeof *whole);
     for (; y + 4 <= end; y += 4) {
-        const uint8_t *a = bytes_row(p, y), *b = bytes_row(p, y + 1), *c = bytes_row(p, y + 2), *d = bytes_row(p, y + 3);
+        const uint8_t *a = bytes_at(p, y), *b = bytes_at(p, y + 1), *c = bytes_at(p, y + 2), *d = bytes_at(p, y + 3);
         for (int x = 0; x < n; x++) whole[x] = (uint16_t)(whole[x] + a[x] + b[x] + c[x] + d[x]);
     }
     for (; y < end; y++) {
-        const uint8_t *a = bytes_row(p, y);
+        const uint8_t *a = bytes_at(p, y);
         for (int x = 0; x < n; x++) whole[x] = (uint16_t)(whole[x] + a[x]);
     }
     for (int x = 0; x < n; x++) sums[x] += (float)whole[x];

@@ -5,8 +5,8 @@
 #include "state.h"
 
 /* Add one step's spikes, weight = dt / clock in whole quarters, and note whether the rule holds. */
-void decision_step(lobula_state *s, double time_s, const int32_t spikes[4], double weight);
+void decision_step(network_state *s, double time_s, const int32_t spikes[4], real weight);
 
-int decision_collision(const lobula_state *s, double time_s);
+int decision_collision(const network_state *s, double time_s);
 
 #endif

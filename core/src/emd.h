@@ -6,6 +6,7 @@
 #define LOBULA_EMD_H
 
 #include "scratch.h"
+#include "storage.h"
 
 /* What one channel of the cells around pulls: those of the sign `side`, as magnitudes. */
 INLINE vf pull(const float *adapted, vf side, const int *span, const vf *share, int spans) {
@@ -20,15 +21,15 @@ INLINE vf pull(const float *adapted, vf side, const int *span, const vf *share, 
 
 /* `adapted`, ON less OFF, has zero margins: a cell is never both, so the sign of the step before (in `kept`, the state's
  * row) says which channel the cells around are to be read from. What the LGMDs read of both goes to `excitation`. */
-INLINE vd emd_row_as(int n, const float *adapted, float *restrict kept, float *const *excitation, const int *span,
+INLINE vd emd_row_as(int n, const float *adapted, stored *restrict kept, float *const *excitation, const int *span,
                      const float *span_share, int spans, int lgmds, vd sum) {
     vf share[LOBULA_MAX_SPANS], zero = vf_all(0.0f);
     for (int i = 0; i < spans; i++) share[i] = vf_all(span_share[i]);
     float *on = lgmds ? excitation[E_ON] : NULL, *off = lgmds ? excitation[E_OFF] : NULL;
     float *on_before = lgmds ? excitation[E_ON_BEFORE] : NULL, *off_before = lgmds ? excitation[E_OFF_BEFORE] : NULL;
     for (int x = 0; x < n; x += LANES) {
-        vf before = vf_load(kept + x), now = vf_load(adapted + x), side = vf_sign(before);
-        vf_store(kept + x, now);
+        vf before = stored_load(kept + x), now = vf_load(adapted + x), side = vf_sign(before);
+        stored_store(kept + x, now);
         if (lgmds) {
             vf_store(on + x, vf_max(now, zero));
             vf_store(off + x, vf_max(zero - now, zero));
@@ -40,7 +41,7 @@ INLINE vd emd_row_as(int n, const float *adapted, float *restrict kept, float *c
     return sum;
 }
 
-static vd emd_row(int n, const float *adapted, float *kept, float *const *excitation, const step_plan *p, int lgmds,
+static vd emd_row(int n, const float *adapted, stored *kept, float *const *excitation, const step_plan *p, int lgmds,
                   vd sum) {
     static const int usual[4] = {1, 2, 3, 4};
     if (p->spans != 4 || memcmp(p->span, usual, sizeof usual) != 0)

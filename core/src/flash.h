@@ -5,7 +5,7 @@
 #include "sweep.h"
 
 typedef struct {
-    double gain, offset;
+    real gain, offset;
 } change_of_light;
 
 /* Whether there was one, and which. */

@@ -6,6 +6,7 @@
 #define LOBULA_GROUPING_H
 
 #include "lateral_inhibition.h"
+#include "storage.h"
 
 /* The summations of both LGMDs lie side by side, vector by vector. */
 enum { SUMS = 2 };
@@ -52,8 +53,14 @@ static void column_row(int n, const float *above, const float *middle, const flo
 typedef struct {
     const float *sum, *column;
     int spacing;
-    vf least;
+    vf least, scale;
 } grouping_rows;
+
+/* As it is listed. */
+INLINE vf in_list(vf product, vf scale) {
+    if (STORED_NARROW) product *= scale;
+    return product;
+}
 
 /* S times the sum of its neighbourhood, nine times too large, for the cells `inside` the picture. */
 INLINE grouped group_vector(const grouping_rows *r, int x, vm inside, int partial, grouped g) {
@@ -62,7 +69,7 @@ INLINE grouped group_vector(const grouping_rows *r, int x, vm inside, int partia
     if (partial) around = vf_keep(inside, around);
     vf product = vf_load(r->sum + x * SUMS) * around;
     g.strongest = vf_max(g.strongest, around);
-    vf_store(g.list, product);
+    stored_store(g.list, in_list(product, r->scale));
     g.list += (unsigned)vm_any(vf_ge(product, r->least)) * LANES;
     return g;
 }
@@ -97,18 +104,19 @@ INLINE vd total_row(int width, const float *sum, vd total) {
     return total;
 }
 
-INLINE double total_of_list(const float *list, const float *end, float least) {
+/* What is listed and at least `least`; the list holds it times `scale`. */
+INLINE real total_of_list(const stored *list, const stored *end, float least, float scale) {
     vd total = {0};
-    vf limit = vf_all(least);
+    vf limit = in_list(vf_all(least), vf_all(scale));
     while (list < end) {
         vf part = vf_all(0.0f);
         for (int i = 0; i < 16 && list < end; i++, list += LANES) {
-            vf grouped = vf_load(list);
-            part += vf_keep(vf_ge(grouped, limit), grouped);
+            vf listed = stored_load(list);
+            part += vf_keep(vf_ge(listed, limit), listed);
         }
         vd_add(&total, part);
     }
-    return vd_total(&total);
+    return STORED_NARROW ? vd_total(&total) / (real)scale : vd_total(&total);
 }
 
 #endif

@@ -15,7 +15,11 @@
 #define ISA_TEXT_(a) #a
 #define ISA_TEXT(a) ISA_TEXT_(a)
 #define ISA_LEVEL ISA_JOIN(LOBULA_ISA_, LOBULA_ISA)
+#if defined(LOBULA_COMPACT_PLANES)
+#define KERNELS ISA_JOIN(kernels_compact_, LOBULA_ISA)
+#else
 #define KERNELS ISA_JOIN(kernels_, LOBULA_ISA)
+#endif
 
 #if ISA_LEVEL == 4
 #define ISA_NAME "x86-64-v4"
@@ -25,7 +29,11 @@ static int isa_runs(void) {
 }
 #elif ISA_LEVEL == 3
 #define ISA_NAME "x86-64-v3"
-static int isa_runs(void) { return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"); }
+#include <cpuid.h>
+static int isa_runs(void) {
+    unsigned a, b, c, d; /* the builtin does not know f16c in older compilers */
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __get_cpuid(1, &a, &b, &c, &d) && (c & bit_F16C);
+}
 #else
 #if defined(__x86_64__)
 #define ISA_NAME "x86-64"

@@ -5,6 +5,7 @@
 #include <float.h>
 
 #include "scratch.h"
+#include "storage.h"
 
 /* Weights as vectors: read once a row, since for all the compiler knows a store into a row may change them. */
 INLINE void spread(const float *weights, int R, vf *vectors) {
@@ -63,7 +64,8 @@ INLINE on_off halves(vf change) {
 /* The rows of both channels: `kept` in the state, this step's over the one before; and what goes on. With adaptation
  * that is one row, ON less OFF, since only one of them rises; without, both channels and what they were before. */
 typedef struct {
-    float *kept[2], *adapted, *apart[2], *before[2];
+    stored *kept[2];
+    float *adapted, *apart[2], *before[2];
 } lamina_rows;
 
 /* A channel now and one step ago. */
@@ -72,10 +74,10 @@ typedef struct {
 } two_steps;
 
 /* model.lamina.on_off of one channel */
-INLINE two_steps remember(vf signal, vf residual, float *kept) {
-    two_steps x = {signal, vf_load(kept)};
+INLINE two_steps remember(vf signal, vf residual, stored *kept) {
+    two_steps x = {signal, stored_load(kept)};
     x.now += residual * x.before;
-    vf_store(kept, x.now);
+    stored_store(kept, x.now);
     return x;
 }
 

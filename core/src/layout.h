@@ -2,14 +2,25 @@
 #ifndef LOBULA_LAYOUT_H
 #define LOBULA_LAYOUT_H
 
-#include "lobula.h"
+#include <stddef.h>
 
+#include "real.h"
+
+#if defined(LOBULA_LAPTOP)
 #define ROW_FLOATS 16 /* rows start on multiples of this, whatever the instruction set: states are exchangeable */
+#else
+#define ROW_FLOATS 1
+#endif
 
 enum { CHANGE, ADAPTED, SOURCES }; /* what an LGMD can read */
 enum { ON, OFF };
 
+#if defined(LOBULA_LAPTOP)
 #define MAX_RADIUS (32 * 4) /* of the DoG's outer field */
+#else
+#include "lobula_config.h"
+#define MAX_RADIUS (LOBULA_LAMINA_DOG_RADIUS_PX * LOBULA_LAMINA_DOG_SURROUND)
+#endif
 
 #define MAX_STRETCH 4 /* of the EMDs' spans, in long steps */
 
@@ -34,8 +45,9 @@ typedef struct {
     int ring;                       /* rows that inhibition and grouping keep, a power of two */
     int excited;                    /* rows of what excites the LGMDs that are kept, a power of two */
     int window_capacity;
-    size_t record;          /* one row of every plane but the luma */
-    size_t luma;            /* the whole luma */
+    size_t record;          /* cells of one row of every plane but the luma */
+    size_t cell_bytes, pixel_bytes; /* of a plane's cell, and of the luma's */
+    size_t luma_bytes;      /* the whole luma */
     size_t planes_at;       /* offset of the luma in the state, bytes; the others follow */
     size_t kernel_at;       /* offset of the DoG weights, bytes */
     size_t window_at;       /* offset of the decision's entries, bytes */
@@ -43,6 +55,6 @@ typedef struct {
 } layout;
 
 /* Fill `l`, or say that the size or a setting cannot be. */
-int layout_init(layout *l, const lobula_params *p, int width, int height);
+int layout_init(layout *l, const lobula_params *p, int width, int height, int storage);
 
 #endif

@@ -7,6 +7,18 @@
 
 static inline const char *picture_row(const picture *p, int y) { return p->pixels + (ptrdiff_t)y * p->row_bytes; }
 
+/* What its pixels are: known beforehand where the planes are compact. */
+static inline int kind_of(const picture *p) {
+#if defined(LOBULA_LAPTOP) && !defined(LOBULA_COMPACT_PLANES)
+    return p->type;
+#else
+    (void)p;
+    return LOBULA_UINT8;
+#endif
+}
+
+static inline const uint8_t *bytes_at(const picture *p, int y) { return (const uint8_t *)picture_row(p, y); }
+
 static inline vf pixels_at(const char *row, int type, int x) {
     return type == LOBULA_UINT8 ? vf_from_u8((const uint8_t *)row + x) : vf_load((const float *)(const void *)row + x);
 }

@@ -64,6 +64,6 @@ int lobula_resize(void *plan, const lobula_images *source, float *out) {
     picture crop = {(const char *)source->pixels + (ptrdiff_t)r->spec.crop_y * source->row_bytes +
                         (ptrdiff_t)((size_t)r->spec.crop_x * pixel),
                     source->row_bytes, source->type};
-    kernels_of(r->isa)->area_average(r, crop, out);
+    kernels_of(r->isa, LOBULA_FLOAT)->area_average(r, crop, out);
     return LOBULA_OK;
 }

@@ -4,6 +4,7 @@
 
 #include "state.h"
 #include "sweep.h"
+#include "storage.h"
 #include "vector.h"
 
 /* Rows that were just written are read at unaligned places by the filters; reading them one row later lets the
@@ -22,7 +23,7 @@ enum { E_ON, E_OFF, E_ON_BEFORE, E_OFF_BEFORE, E_ROWS };
 /* The grouping of one LGMD so far: the largest 3 x 3 sums, and the end of its list. */
 typedef struct {
     vf strongest;
-    float *list;
+    stored *list;
 } grouped;
 
 /* What usual.h can do: nothing; the LGMDs of the presets; those with plain gains; those with one bias besides. */
@@ -39,7 +40,7 @@ typedef struct {
     float *inhibition[MAX_SETS]; /* one row of I of each set */
     ring sums; /* of both LGMDs, see grouping.h */
     ring column[2]; /* three rows of the summation, added up */
-    float *list[2]; /* vectors of grouped cells that may reach the threshold */
+    stored *list[2]; /* vectors of grouped cells that may reach the threshold */
     grouped grouped[2];
     float limit[2]; /* what such a cell must reach, as far as is known */
     how_usual usual;
@@ -88,7 +89,16 @@ static inline ring take_long(memory *m, const layout *l, int rows) { return take
 
 static inline ring take_short(memory *m, const layout *l, int rows) { return take_ring(m, rows, l->stride, 0); }
 
-static inline size_t list_floats(const layout *l) { return (size_t)l->height * (size_t)l->stride + ROW_FLOATS; }
+static inline size_t list_bytes(const layout *l) {
+    size_t bytes = ((size_t)l->height * (size_t)l->stride + ROW_FLOATS) * sizeof(stored);
+    return (bytes + 7) / 8 * 8; /* floats may follow */
+}
+
+static inline stored *take_list(memory *m, const layout *l) {
+    stored *at = m->base ? (stored *)(void *)(m->base + m->used) : NULL;
+    m->used += list_bytes(l);
+    return at;
+}
 
 /* The rows of one frame at work. */
 static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
@@ -110,10 +120,9 @@ static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     for (int k = 0; k < MAX_SETS / 2; k++) s->weighed[k] = take_ring(m, l->ring, 4 * l->stride, 0);
     for (int k = 0; k < MAX_SETS; k++) s->inhibition[k] = take(m, (size_t)l->stride);
     s->sums = take_ring(m, l->ring, 2 * l->stride, 0);
-    for (int j = 0; j < 2; j++) {
-        s->column[j] = take_long(m, l, 2);
-        s->list[j] = take(m, list_floats(l));
-    }
+    for (int j = 0; j < 2; j++) s->column[j] = take_long(m, l, 2);
+    m->used = (m->used + 7) / 8 * 8;
+    for (int j = 0; j < 2; j++) s->list[j] = take_list(m, l); /* last: see robot/lobula.c */
 }
 
 #endif

@@ -5,31 +5,34 @@
 #include "layout.h"
 
 #define STATE_MAGIC 0x6c6f6275u
+#define STATE_ABI 3 /* LOBULA_ABI */
 
 typedef struct {
     uint32_t magic, abi;
-    int32_t isa;
-    int32_t window_count;
+    int32_t isa, storage;
+    int32_t window_count, reserved;
     layout layout;
     lobula_params params;
     lobula_scalars now;
-} lobula_state;
+} network_state;
 
-static inline float *state_planes(lobula_state *s) { return (float *)((char *)s + s->layout.planes_at); }
-static inline const float *state_kernel(const lobula_state *s) {
-    return (const float *)((const char *)s + s->layout.kernel_at);
-}
-static inline lobula_decision_entry *state_window(lobula_state *s) {
+static inline char *state_planes(network_state *s) { return (char *)s + s->layout.planes_at; }
+static inline float *state_kernel(network_state *s) { return (float *)(void *)((char *)s + s->layout.kernel_at); }
+static inline lobula_decision_entry *state_window(network_state *s) {
     return (lobula_decision_entry *)((char *)s + s->layout.window_at);
 }
 
-static inline size_t planes_floats(const layout *l) { return l->luma + (size_t)l->height * l->record; }
+static inline size_t planes_bytes(const layout *l) {
+    return l->luma_bytes + (size_t)l->height * l->record * l->cell_bytes;
+}
 
 /* One row of the luma, and of one of the other planes. */
-static inline float *luma_row(const layout *l, float *planes, int y) { return planes + (size_t)y * (size_t)l->stride; }
+static inline void *luma_row(const layout *l, char *planes, int y) {
+    return planes + (size_t)y * (size_t)l->stride * l->pixel_bytes;
+}
 
-static inline float *state_row(const layout *l, float *planes, int plane, int y) {
-    return planes + l->luma + (size_t)y * l->record + (size_t)plane * (size_t)l->stride;
+static inline void *state_row(const layout *l, char *planes, int plane, int y) {
+    return planes + l->luma_bytes + ((size_t)y * l->record + (size_t)plane * (size_t)l->stride) * l->cell_bytes;
 }
 
 #endif

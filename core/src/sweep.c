@@ -5,7 +5,6 @@
  * frame reads it. */
 #include "sweep.h"
 
-#include "area_average.h"
 #include "emd.h"
 #include "grouping.h"
 #include "isa.h"
@@ -13,7 +12,12 @@
 #include "lateral_inhibition.h"
 #include "retina.h"
 #include "scratch.h"
+#include "storage.h"
 #include "usual.h"
+
+#if defined(LOBULA_LAPTOP) && !defined(LOBULA_COMPACT_PLANES)
+#include "area_average.h"
+#endif
 
 /* What stays the same for all rows of all frames of a sweep. */
 typedef struct {
@@ -22,7 +26,7 @@ typedef struct {
     int lgmds_read_change, lgmds_read_lamina, fdsr;
     int reach[SOURCES]; /* farthest neighbour among the LGMDs that read it */
     const float *inner, *outer; /* weights of the DoG */
-    float *planes;
+    char *planes;
 } constants;
 
 static void replicate_margins(float *row, int width, int margin) {
@@ -43,6 +47,9 @@ static void zero_margins(const ring *r, int margin) {
 }
 
 static float *tap_row(const step_plan *p, int tap, const layout *l, int y) {
+#if !defined(LOBULA_LAPTOP)
+    return NULL; /* no room for maps */
+#endif
     return p->taps && p->taps[tap] ? p->taps[tap] + (size_t)y * (size_t)l->width : NULL;
 }
 
@@ -54,9 +61,9 @@ static void copy_to_tap(const step_plan *p, int tap, const layout *l, int y, con
 static void retina_row(const constants *c, scratch *k, step_plan *p, int y) {
     const layout *l = c->l;
     const char *image = picture_row(&p->image, y);
-    float *luma = luma_row(l, c->planes, y);
+    stored_luma *luma = luma_row(l, c->planes, y);
     float *change = k->change.first + (size_t)((unsigned)y % k->change.rows) * (size_t)k->change.stride;
-    retina_rows r = {luma, change, {NULL}, {NULL}, k->columns};
+    retina_rows r = {luma, {NULL}, change, {NULL}, k->columns};
     if (p->coarse && y % p->patch == 0) memset(k->columns, 0, (size_t)l->stride * sizeof(float));
     if (c->lgmds_read_change) {
         r.kept[ON] = state_row(l, c->planes, l->planes.change, y);
@@ -69,6 +76,7 @@ static void retina_row(const constants *c, scratch *k, step_plan *p, int y) {
         retina_row_excites(l->width, p, image, &r);
     else
         retina_row_alone(l->width, p, image, &r);
+    luma_keep(luma, image, l->width);
     for (int i = 0; i < E_ROWS && c->lgmds_read_change; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
     if (p->coarse && y % p->patch == p->patch - 1) hear_patches(l->width, p, k->columns, p->patches);
     copy_to_tap(p, LOBULA_TAP_CHANGE, l, y, change);
@@ -120,13 +128,14 @@ static void lamina_row(const constants *c, scratch *k, const step_plan *p, int y
         copy_to_tap(p, LOBULA_TAP_LAMINA, l, y, change);
 }
 
-static void motion_tap(const constants *c, const scratch *k, const step_plan *p, int y, const float *kept) {
+static void motion_tap(const constants *c, scratch *k, const step_plan *p, int y, const stored *kept) {
     float *map = tap_row(p, LOBULA_TAP_MOTION, c->l, y);
     if (!map) return;
     memset(map, 0, (size_t)c->l->width * sizeof(float));
+    const float *before = kept ? stored_row(kept, k->inhibition[0], c->n) : NULL; /* free until the LGMDs come */
     for (int ch = 0; ch < 2; ch++) {
         if (kept)
-            emd_map(c->l->width, row_of(&k->adapted, y), kept, ch == ON ? 1.0f : -1.0f, p, map);
+            emd_map(c->l->width, row_of(&k->adapted, y), before, ch == ON ? 1.0f : -1.0f, p, map);
         else
             emd_map(c->l->width, row_of(&k->apart[ch], y), row_of(&k->before[ch], y), 1.0f, p, map);
     }
@@ -134,7 +143,8 @@ static void motion_tap(const constants *c, const scratch *k, const step_plan *p,
 
 static void motion_row(const constants *c, scratch *k, const step_plan *p, int y) {
     const layout *l = c->l;
-    float *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL, *excitation[E_ROWS] = {NULL};
+    stored *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL;
+    float *excitation[E_ROWS] = {NULL};
     for (int i = 0; i < E_ROWS && c->lgmds_read_lamina; i++) excitation[i] = row_of(&k->excitation[ADAPTED][i], y);
     motion_tap(c, k, p, y, kept);
     if (c->fdsr)
@@ -243,8 +253,8 @@ static how_usual usual(const constants *c, const step_plan *p) {
     return a->bias[OFF] == b->bias[OFF] ? PLAIN_SAME : PLAIN;
 }
 
-static double omega(const lgmd_plan *q, float strongest) {
-    return q->omega_floor + q->omega_share * (double)strongest;
+static real omega(const lgmd_plan *q, float strongest) {
+    return q->omega_floor + q->omega_share * (real)strongest;
 }
 
 static float threshold(const lgmd_plan *q, float strongest) {
@@ -255,7 +265,8 @@ static grouping_rows rows_to_group(const constants *c, scratch *k, const step_pl
     /* The limit grows with the strongest sum; now and then is often enough. It stays a little below, so that rounding
      * on the way to the final threshold loses nothing. */
     if (y % 8 == 1) k->limit[j] = 0.999999f * threshold(&p->lgmd[j], vf_highest(k->grouped[j].strongest));
-    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(k->limit[j])};
+    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(k->limit[j]),
+                       vf_all(p->lgmd[j].list_scale)};
     return r;
 }
 
@@ -338,8 +349,8 @@ static void finish(const constants *c, scratch *k, step_plan *p) {
     for (int j = 0; j < 2; j++) {
         const lgmd_plan *q = &p->lgmd[j];
         float strongest = vf_highest(k->grouped[j].strongest), least = threshold(q, strongest);
-        double nine_omega = omega(q, strongest);
-        p->total[j] = q->grouping ? total_of_list(k->list[j], k->grouped[j].list, least) / nine_omega
+        real nine_omega = omega(q, strongest);
+        p->total[j] = q->grouping ? total_of_list(k->list[j], k->grouped[j].list, least, q->list_scale) / nine_omega
                                   : vd_total(&k->total[j]);
         float *sum = tap_row(p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, c->l, 0);
         float *map = tap_row(p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, c->l, 0);
@@ -352,7 +363,7 @@ static void finish(const constants *c, scratch *k, step_plan *p) {
     }
 }
 
-static constants constants_of(const layout *l, const float *kernel, float *planes) {
+static constants constants_of(const layout *l, const float *kernel, char *planes) {
     constants c = {.l = l, .n = padded(l->width), .fdsr = l->planes.adapted >= 0, .inner = kernel,
                    .outer = kernel + l->inner_radius + 1, .planes = planes};
     for (int j = 0; j < 2; j++) {
@@ -364,7 +375,7 @@ static constants constants_of(const layout *l, const float *kernel, float *plane
     return c;
 }
 
-static void sweep(const layout *l, const float *kernel, float *planes, char *workspace, step_plan *plans, int n) {
+static void sweep(const layout *l, const float *kernel, char *planes, char *workspace, step_plan *plans, int n) {
     scratch k[MAX_FRAMES];
     constants c = constants_of(l, kernel, planes);
     memory m = {workspace, 0};
@@ -386,9 +397,14 @@ static size_t scratch_bytes(const layout *l) {
     return m.used;
 }
 
-static size_t row_bytes(const layout *l) { return scratch_bytes(l) - 2 * list_floats(l) * sizeof(float); }
+static size_t row_bytes(const layout *l) { return scratch_bytes(l) - 2 * list_bytes(l); }
 
 const kernels KERNELS = {
     ISA_NAME, isa_runs,   scratch_bytes, row_bytes, summarise, largest_change, coverage,
-    light,    light_rest, lit_change,    set_luma,  sweep,     in_range, area_average,
+    light,    light_rest, lit_change,    set_luma,  sweep,
+#if defined(LOBULA_LAPTOP) && !defined(LOBULA_COMPACT_PLANES)
+    in_range, area_average,
+#else
+    NULL,     NULL,
+#endif
 };

@@ -6,10 +6,15 @@
 #include <stdint.h>
 
 #include "layout.h"
+#include "real.h"
 
 #define MAX_SETS 4     /* both channels of both LGMDs */
 #define NO_SET (-1)
+#if defined(LOBULA_LAPTOP)
 #define MAX_FRAMES 16 /* at once */
+#else
+#define MAX_FRAMES 1
+#endif
 
 /* Where a picture lies. */
 typedef struct {
@@ -35,8 +40,9 @@ typedef struct {
     int set[2]; /* NO_SET where a channel is silent and nobody looks at its inhibition */
     float bias[2], gain[2], product_gain;
     int grouping;
+    float list_scale; /* a power of two that brings what is listed into the range of its storage */
     /* With m the largest sum of 3 x 3 cells: nine times omega, and what nine times S Ce must reach. */
-    double omega_floor, omega_share, threshold_grey;
+    real omega_floor, omega_share, threshold_grey;
 } lgmd_plan;
 
 /* Everything known about one step before its rows are looked at. */
@@ -55,11 +61,11 @@ typedef struct {
     lgmd_plan lgmd[2];
     float *const *taps; /* NULL: none */
     /* Left behind: the net motion, the sum of each LGMD's grouped cells, and what the patches say, ON and OFF. */
-    double hs, total[2], patches[2];
+    real hs, total[2], patches[2];
 } step_plan;
 
 typedef struct {
-    double mean, mean_abs;
+    real mean, mean_abs;
 } change_summary;
 
 typedef struct {
@@ -68,12 +74,13 @@ typedef struct {
 
 /* Sums over the pixels whose change is at most `limit`. */
 typedef struct {
-    double count, new_sum, old_sum, old_old, new_old, change_change;
+    real count, new_sum, old_sum, old_old, new_old, change_change;
 } light_sums;
 
 struct resize_plan;
 
-/* The loops over pixels, once for each instruction set. A picture `previous` may be the luma plane. */
+/* The loops over pixels, once for each instruction set and each storage of the planes. A picture `previous` may be the
+ * luma plane. */
 typedef struct {
     const char *name;
     int (*runs)(void);
@@ -81,22 +88,22 @@ typedef struct {
     size_t (*row_bytes)(const layout *l);     /* and without the lists, which are seldom long */
     /* mean and mean magnitude of image - previous; its largest magnitude */
     change_summary (*summarise)(extent e, picture image, picture previous);
-    double (*largest_change)(extent e, picture image, picture previous);
+    real (*largest_change)(extent e, picture image, picture previous);
     /* pixels brighter, and darker, by more than half a grey level */
     void (*coverage)(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker);
-    light_sums (*light)(extent e, picture image, picture previous, double limit);
-    double (*light_rest)(extent e, picture image, picture previous, double limit, double gain, double offset);
+    light_sums (*light)(extent e, picture image, picture previous, real limit);
+    real (*light_rest)(extent e, picture image, picture previous, real limit, real gain, real offset);
     /* mean |image - (gain previous + offset)| */
-    double (*lit_change)(extent e, picture image, picture previous, float gain, float offset);
-    void (*set_luma)(const layout *l, picture image, float *planes);
+    real (*lit_change)(extent e, picture image, picture previous, float gain, float offset);
+    void (*set_luma)(const layout *l, picture image, char *planes);
     /* Take `n` frames through all rows together. */
-    void (*sweep)(const layout *l, const float *kernel, float *planes, char *workspace, step_plan *plans, int n);
+    void (*sweep)(const layout *l, const float *kernel, char *planes, char *workspace, step_plan *plans, int n);
+    /* Of the floats' table only: `out` is the area average of the cropped picture; `plan` is a resize_plan */
     int (*in_range)(extent e, picture image);
-    /* `out` is the area average of the cropped picture; `plan` is a resize_plan */
     void (*area_average)(struct resize_plan *plan, picture crop, float *out);
 } kernels;
 
-/* The table of instruction set `isa`, or NULL. */
-const kernels *kernels_of(int isa);
+/* The table of instruction set `isa` and of a storage, or NULL. */
+const kernels *kernels_of(int isa, int storage);
 
 #endif

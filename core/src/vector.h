@@ -1,14 +1,15 @@
 /* A row of floats, LANES at a time: AVX-512, AVX2, SSE2 or NEON, and one at a time in plain C elsewhere.
  *
- * vf is a vector of floats, vm a mask of its lanes, vd a sum of floats kept in double. + - * work on vf as written
+ * vf is a vector of floats, vm a mask of its lanes, vd a sum of floats kept in double, or on a robot in two floats. + - * work on vf as written
  * (compiler vector extensions); a * b + c becomes one fused instruction where there is one.
  */
 #ifndef LOBULA_VECTOR_H
 #define LOBULA_VECTOR_H
 
-#include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+#include "real.h"
 
 #if defined(LOBULA_PLAIN)
 #define LANES 1
@@ -189,7 +190,11 @@ INLINE void vd_add(vd *sum, vf a) {
 
 typedef float vf;
 typedef int vm;
+#if defined(LOBULA_LAPTOP)
 typedef struct { double low; } vd;
+#else
+typedef struct { float sum, rest; } vd;
+#endif
 
 INLINE vf vf_all(float x) { return x; }
 INLINE vf vf_max(vf a, vf b) { return a > b ? a : b; }
@@ -206,7 +211,16 @@ INLINE vm vm_first(int n) { return n > 0; }
 INLINE vf vf_from_u8(const uint8_t *p) { return (float)*p; }
 INLINE vf vf_load_first(const float *p, int n) { return n > 0 ? *p : 0.0f; }
 INLINE float vf_highest(vf a) { return a; }
+#if defined(LOBULA_LAPTOP)
 INLINE void vd_add(vd *sum, vf a) { sum->low += (double)a; }
+#else
+/* What the sum loses to rounding is kept beside it (Knuth's two-sum). */
+INLINE void vd_add(vd *s, vf a) {
+    float sum = s->sum + a, part = sum - s->sum;
+    s->rest += (s->sum - (sum - part)) + (a - part);
+    s->sum = sum;
+}
+#endif
 
 #endif
 
@@ -218,12 +232,16 @@ INLINE vf vf_load(const float *p) {
 
 INLINE void vf_store(float *p, vf a) { memcpy(p, &a, sizeof a); }
 
+#if defined(LOBULA_LAPTOP)
 INLINE double vd_total(const vd *sum) {
     double lanes[sizeof(vd) / sizeof(double)], total = 0.0;
     memcpy(lanes, sum, sizeof lanes);
     for (size_t i = 0; i < sizeof(vd) / sizeof(double); i++) total += lanes[i];
     return total;
 }
+#else
+INLINE float vd_total(const vd *s) { return s->sum + s->rest; }
+#endif
 
 /* Number of vectors that hold a row of `width`. */
 INLINE int padded(int width) { return (width + LANES - 1) / LANES * LANES; }

@@ -54,9 +54,9 @@ static inline lobula_params published(void) {
 
 /* A network with memory of its own, for blocks of `frames`. */
 static inline lobula_net network(const lobula_params *p, int width, int height, int frames) {
-    lobula_net net = {memory(lobula_state_size(p, width, height)),
-                      memory(lobula_workspace_size(p, width, height, frames))};
-    CHECK(lobula_init(net.state, p, width, height, LOBULA_ISA_AUTO) == LOBULA_OK, "a network that should be possible");
+    lobula_net net = {memory(lobula_state_size(p, width, height, LOBULA_FLOAT)),
+                      memory(lobula_workspace_size(p, width, height, LOBULA_FLOAT, frames))};
+    CHECK(lobula_init(net.state, p, width, height, LOBULA_FLOAT, LOBULA_ISA_AUTO) == LOBULA_OK, "a network that should be possible");
     return net;
 }
 

@@ -251,8 +251,8 @@ static void fuzz_network(dice *d) {
     lobula_net a = network(&p, width, height, 1), b = network(&p, width, height, frames);
     while (lobula_isa_name(isa + 1) && one_in(d, 2)) isa++;
     if (lobula_isa_runs(isa)) {
-        CHECK(lobula_init(a.state, &p, width, height, isa) == LOBULA_OK, "an instruction set that runs here");
-        CHECK(lobula_init(b.state, &p, width, height, isa) == LOBULA_OK, "an instruction set that runs here");
+        CHECK(lobula_init(a.state, &p, width, height, LOBULA_FLOAT, isa) == LOBULA_OK, "an instruction set that runs here");
+        CHECK(lobula_init(b.state, &p, width, height, LOBULA_FLOAT, isa) == LOBULA_OK, "an instruction set that runs here");
     }
     double now_s = between(d, -1.0, 1e6);
     for (int part = 1 + below(d, 3); part > 0; part--) {

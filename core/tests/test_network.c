@@ -131,7 +131,7 @@ static void networks_do_not_meet(const lobula_params *p) {
     film *pictures[2] = {&bar, &noise};
     lobula_net net[2] = {network(p, WIDTH, HEIGHT, 1), network(p, WIDTH, HEIGHT, 1)};
     lobula_net shared = {net[1].state, net[0].workspace};
-    size_t bytes = lobula_state_size(p, WIDTH, HEIGHT);
+    size_t bytes = lobula_state_size(p, WIDTH, HEIGHT, LOBULA_FLOAT);
     lobula_net copy = {memory(bytes), net[1].workspace};
     for (int i = 0; i < 2; i++) {
         step_through(&net[i], pictures[i], alone[i]);

@@ -21,26 +21,26 @@ static void instruction_sets(void) {
 /* The usual picture fits a small processor: the promise of the README. */
 static void state_is_small(void) {
     lobula_params p = published();
-    size_t bytes = lobula_state_size(&p, 99, 72);
+    size_t bytes = lobula_state_size(&p, 99, 72, LOBULA_FLOAT);
     CHECK(bytes > 0 && bytes <= 200 * 1024, "the state of a 99 x 72 network");
     p.lgmd1.reads = p.lgmd2.reads = 1;
-    CHECK(lobula_state_size(&p, 99, 72) < bytes, "LGMDs that read the lamina need no planes of the change");
-    CHECK(lobula_workspace_size(&p, 99, 72, 4) == 4 * lobula_workspace_size(&p, 99, 72, 1), "a frame at a time");
-    CHECK(lobula_block_frames(&p, 99, 72) == 1, "the state fits the cache");
+    CHECK(lobula_state_size(&p, 99, 72, LOBULA_FLOAT) < bytes, "LGMDs that read the lamina need no planes of the change");
+    CHECK(lobula_workspace_size(&p, 99, 72, LOBULA_FLOAT, 4) == 4 * lobula_workspace_size(&p, 99, 72, LOBULA_FLOAT, 1), "a frame at a time");
+    CHECK(lobula_block_frames(&p, 99, 72, LOBULA_FLOAT) == 1, "the state fits the cache");
 }
 
 static void refused_size(int width, int height) {
     lobula_params p = published();
     static char state[64];
-    CHECK(lobula_state_size(&p, width, height) == 0, "no such state");
-    CHECK(lobula_workspace_size(&p, width, height, 1) == 0, "no such workspace");
-    CHECK(lobula_init(state, &p, width, height, LOBULA_ISA_AUTO) == LOBULA_BAD_ARGUMENT, "no such network");
+    CHECK(lobula_state_size(&p, width, height, LOBULA_FLOAT) == 0, "no such state");
+    CHECK(lobula_workspace_size(&p, width, height, LOBULA_FLOAT, 1) == 0, "no such workspace");
+    CHECK(lobula_init(state, &p, width, height, LOBULA_FLOAT, LOBULA_ISA_AUTO) == LOBULA_BAD_ARGUMENT, "no such network");
 }
 
 static void refused(lobula_params p, const char *what) {
     static char state[64];
-    CHECK(lobula_state_size(&p, 99, 72) == 0, what);
-    CHECK(lobula_init(state, &p, 99, 72, LOBULA_ISA_AUTO) == LOBULA_BAD_ARGUMENT, what);
+    CHECK(lobula_state_size(&p, 99, 72, LOBULA_FLOAT) == 0, what);
+    CHECK(lobula_init(state, &p, 99, 72, LOBULA_FLOAT, LOBULA_ISA_AUTO) == LOBULA_BAD_ARGUMENT, what);
 }
 
 static void refused_settings(void) {
@@ -84,8 +84,8 @@ static void refused_calls(void) {
     CHECK(lobula_step(&net, NULL, 1.0, 0, &reading, NULL) == LOBULA_BAD_ARGUMENT, "no picture");
     images.type = 2;
     CHECK(lobula_step(&net, &images, 1.0, 0, &reading, NULL) == LOBULA_BAD_ARGUMENT, "no such type of pixels");
-    CHECK(lobula_init(net.state, &p, 32, 24, 99) == LOBULA_BAD_ARGUMENT, "no such instruction set");
-    CHECK(lobula_init(NULL, &p, 32, 24, 0) == LOBULA_BAD_ARGUMENT, "no state");
+    CHECK(lobula_init(net.state, &p, 32, 24, LOBULA_FLOAT, 99) == LOBULA_BAD_ARGUMENT, "no such instruction set");
+    CHECK(lobula_init(NULL, &p, 32, 24, LOBULA_FLOAT, 0) == LOBULA_BAD_ARGUMENT, "no state");
     memset(net.state, 0, 64);
     images.type = LOBULA_UINT8;
     CHECK(lobula_step(&net, &images, 1.0, 0, &reading, NULL) == LOBULA_BAD_STATE, "not a state");

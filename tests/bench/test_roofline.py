@@ -14,7 +14,7 @@ def test_the_core_keeps_the_counted_planes_and_little_more():
     from lobula.engine.structures import core_params
 
     # at a width that is a multiple of every vector nothing is padded
-    size = library.library().lobula_state_size(core_params(preset("published")), 640, 480)
+    size = library.library().lobula_state_size(core_params(preset("published")), 640, 480, 0)
     assert roofline.state_bytes(640, 480) == 6 * 4 * 640 * 480
     assert 1.0 <= size / roofline.state_bytes(640, 480) < 1.01
 

@@ -127,7 +127,7 @@ def test_a_block_of_pictures_that_outgrow_the_cache(shape):
 
 def test_state_is_small_enough_for_a_cache():
     for name in ("paper", "published"):
-        assert library().lobula_state_size(core_params(lobula.preset(name)), 99, 72) <= 200 * 1024
+        assert library().lobula_state_size(core_params(lobula.preset(name)), 99, 72, 0) <= 200 * 1024
 
 
 def test_networks_on_threads_of_their_own():

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..engine.network import Network, chosen_engine
+from ..engine.network import Network, chosen_engine, chosen_storage
 from ..model.network import NetworkParams
 from ..model.presets import preset
 from ..types import Reading
@@ -20,20 +20,24 @@ class NetworkController:
     Parameters
     ----------
     params : the settings of all of them; the default preset where nothing is given
-    engine : ``core``, ``reference`` or ``auto``, as ``lobula.Network`` has it
+    engine, storage : as ``lobula.Network`` has them; ``compact`` is the robot's arithmetic
     """
 
-    def __init__(self, params: NetworkParams | None = None, *, engine: str = "auto") -> None:
+    def __init__(self, params: NetworkParams | None = None, *, engine: str = "auto", storage: str = "float") -> None:
         self.params = preset() if params is None else params
         self.engine = chosen_engine(engine)
+        self.storage = chosen_storage(storage, self.engine)
         self.start(0, np.random.default_rng(0))
 
     def start(self, robots: int, rng: np.random.Generator) -> None:
         """Make a network for each of ``robots``; the network knows no chance."""
-        self._networks = [Network(self.params, engine=self.engine) for _ in range(robots)]
-        self._spare = Network(self.params, engine=self.engine)
+        self._networks = [self._network() for _ in range(robots)]
+        self._spare = self._network()
         self.readings: list[Reading] = []
         """What each robot's network said last."""
+
+    def _network(self) -> Network:
+        return Network(self.params, engine=self.engine, storage=self.storage)
 
     @property
     def potentials(self) -> NDArray[np.float64] | None:

@@ -6,7 +6,7 @@ import ctypes
 import math
 import struct
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,9 @@ from .library import isa_index, library
 from .structures import Images, Net, Scalars, core_params
 
 ALIGN = 64
+Storage = Literal["float", "compact"]
+STORAGES: tuple[Storage, ...] = ("float", "compact")
+"""In the core's order. ``compact`` keeps the luma in bytes and all other planes as 16-bit floats, as a robot does."""
 UINT8, FLOAT32 = np.dtype(np.uint8), np.dtype(np.float32)
 TYPES = {UINT8: 0, FLOAT32: 1}
 COPIED_BYTES = 1 << 18
@@ -35,8 +38,8 @@ READING_DTYPE = np.dtype(
 
 STATE_NAMES = np.array(STATES)
 
-HEADER_BYTES = 12
-"""Start of ``lobula_state``: magic number, ABI and instruction set, the same for all states that are exchangeable."""
+HEADER_BYTES = 16
+"""Start of a state: magic number, ABI, instruction set and storage, the same for all that are exchangeable."""
 
 
 class Memory:
@@ -51,25 +54,36 @@ class Memory:
 class Workspace(Memory):
     """What a network needs while it works; networks that take turns on one thread can share one."""
 
-    def __init__(self, params: NetworkParams, shape: tuple[int, int]) -> None:
+    def __init__(self, params: NetworkParams, shape: tuple[int, int], storage: Storage = "float") -> None:
         height, width = shape
-        settings, core = core_params(params), library()
-        self.frames = int(core.lobula_block_frames(settings, width, height))
-        super().__init__(core.lobula_workspace_size(settings, width, height, self.frames))
+        settings, core, kept = core_params(params), library(), STORAGES.index(storage)
+        self.frames = int(core.lobula_block_frames(settings, width, height, kept))
+        super().__init__(core.lobula_workspace_size(settings, width, height, kept, self.frames))
 
 
 class CoreNetwork:
-    """The network in C. ``step`` takes luminance (H, W), uint8 or float32 in 0..255, already checked."""
+    """The network in C. ``step`` takes luminance (H, W), uint8 or float32 in 0..255, already checked.
 
-    def __init__(self, p: NetworkParams, shape: tuple[int, int], *, workspace: Workspace | None = None) -> None:
+    With ``storage`` ``compact`` floats are rounded to whole grey levels first.
+    """
+
+    def __init__(
+        self,
+        p: NetworkParams,
+        shape: tuple[int, int],
+        *,
+        workspace: Workspace | None = None,
+        storage: Storage = "float",
+    ) -> None:
         self.p = p
         self.shape = height, width = shape
         self._core = library()
-        settings = core_params(p)
-        self._state = Memory(self._core.lobula_state_size(settings, width, height))
+        self.storage: Storage = storage
+        settings, kept = core_params(p), STORAGES.index(storage)
+        self._state = Memory(self._core.lobula_state_size(settings, width, height, kept))
         self._net = Net(state=self._state.address)
-        self.use(workspace or Workspace(p, shape))
-        if self._core.lobula_init(self._state.address, settings, width, height, isa_index()):
+        self.use(workspace or Workspace(p, shape, storage))
+        if self._core.lobula_init(self._state.address, settings, width, height, kept, isa_index()):
             raise RuntimeError(f"the C core refuses {width} x {height} px with these settings")
         self._stages = {dtype: np.empty(shape, dtype) for dtype in TYPES}
         self._staged = {
@@ -106,6 +120,8 @@ class CoreNetwork:
 
     def step(self, image: NDArray[Any], time_s: float, *, turning: bool = False, taps: Collection[str] = ()) -> Reading:
         """Advance by one frame. ``turning`` says that the camera itself turns: nothing is decided meanwhile."""
+        if self.storage == "compact" and image.dtype != UINT8:
+            image = _whole_grey(image)
         dtype = image.dtype
         if self._copied:
             self._stages[dtype][...] = image
@@ -132,6 +148,8 @@ class CoreNetwork:
         The same numbers as ``step`` on each in turn. Other Python threads run meanwhile.
         """
         count = len(images)
+        if self.storage == "compact" and images.dtype != UINT8:
+            images = _whole_grey(images)
         images, pictures = _images(images)
         times_s = np.ascontiguousarray(times_s, np.float64)
         turns = None if turning is None else np.ascontiguousarray(turning, np.uint8)
@@ -153,12 +171,12 @@ class CoreNetwork:
 
         Raises
         ------
-        ParameterError : it comes from another build, processor or size
+        ParameterError : it comes from another build, processor, storage or size
         """
         block = np.ascontiguousarray(block, np.uint8)
         own = ctypes.string_at(self._state.address, HEADER_BYTES)
         if block.shape != (self._state.size,) or block[:HEADER_BYTES].tobytes() != own:
-            raise ParameterError("the state of a network: was saved by another build, processor or image size")
+            raise ParameterError("the state of a network: was saved by another build, processor, storage or image size")
         ctypes.memmove(self._state.address, block.ctypes.data, self._state.size)
 
     def state_dict(self) -> StateDict:
@@ -210,6 +228,11 @@ class CoreNetwork:
         window = np.ascontiguousarray(state["window"], np.float64)
         window = window[-self._core.lobula_window_capacity(self._state.address) :]
         self._core.lobula_set_window(self._state.address, window.ctypes.data, len(window))
+
+
+def _whole_grey(images: NDArray[Any]) -> NDArray[np.uint8]:
+    """Return what a camera of bytes would give."""
+    return np.rint(images).astype(np.uint8)
 
 
 def _images(images: NDArray[Any]) -> tuple[NDArray[Any], Images]:

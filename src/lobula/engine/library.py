@@ -9,7 +9,7 @@ from functools import cache
 from ..errors import ParameterError
 from .structures import SIGNATURES, CoreParams
 
-ABI = 2
+ABI = 3
 FILE = os.path.join(os.path.dirname(__file__), "liblobula.so")
 """Where ``pip install`` puts it, whatever the system calls its shared libraries."""
 

@@ -18,7 +18,7 @@ from ..model.presets import preset
 from ..model.scaling import scaled
 from ..model.state import StateDict
 from ..types import NEURONS, TRACE_DTYPE, Frame, Reading
-from .core import FLOAT32, UINT8, CoreNetwork, Workspace
+from .core import FLOAT32, STORAGES, UINT8, CoreNetwork, Storage, Workspace
 from .library import available, library, why_not
 
 Engine = Literal["auto", "core", "reference"]
@@ -50,6 +50,20 @@ def chosen_engine(engine: str) -> Literal["core", "reference"]:
     return "reference"
 
 
+def chosen_storage(storage: str, engine: str) -> Storage:
+    """Return how the planes are kept.
+
+    Raises
+    ------
+    ParameterError : an unknown storage, or ``compact`` with the reference, which knows floats only
+    """
+    if storage not in STORAGES:
+        raise ParameterError(f"storage {storage!r}: must be one of {', '.join(STORAGES)}")
+    if storage == "compact" and engine == "reference":
+        raise ParameterError("storage 'compact': is the robot's arithmetic: must go with engine 'core'")
+    return storage
+
+
 class Network:
     """The four neurons and their decision, from luminance frames.
 
@@ -58,18 +72,26 @@ class Network:
     params : the settings, for example ``preset("published")``; the default preset where nothing is given
     engine : ``core`` (C), ``reference`` (NumPy), or ``auto``: the core where it was built
     scale_kernels : let the kernels grow with pictures wider than 99 px, see ``model.scaling``
+    storage : ``float``, or ``compact``: the robot's arithmetic, with pictures in bytes and all other planes as 16-bit
+        floats; float pictures are rounded to whole grey levels
 
     The first frame sets the size; ``reset`` forgets it.
     """
 
     def __init__(
-        self, params: NetworkParams | None = None, *, engine: str = "auto", scale_kernels: bool = False
+        self,
+        params: NetworkParams | None = None,
+        *,
+        engine: str = "auto",
+        scale_kernels: bool = False,
+        storage: str = "float",
     ) -> None:
         if not isinstance(params, NetworkParams | None):
             raise ParameterError(f'Network: params = {params!r}: must be NetworkParams, such as lobula.preset("paper")')
         self.params = preset() if params is None else params
         self.scale_kernels = scale_kernels
         self.engine = chosen_engine(engine)
+        self.storage = chosen_storage(storage, self.engine)
         self.reset()
 
     def reset(self) -> None:
@@ -242,7 +264,7 @@ class Network:
 
         Raises
         ------
-        ParameterError : it was made by another engine or build
+        ParameterError : it was made by another engine, storage or build
         """
         if not snapshot:
             self.reset()
@@ -279,8 +301,10 @@ class Network:
         self.shape = (height, width)
         params = scaled(self.params, width) if self.scale_kernels else self.params
         if self.engine == "core":
-            workspace = Workspace(params, self.shape)
-            self._streams = [CoreNetwork(params, self.shape, workspace=workspace) for _ in range(streams)]
+            workspace = Workspace(params, self.shape, self.storage)
+            self._streams = [
+                CoreNetwork(params, self.shape, workspace=workspace, storage=self.storage) for _ in range(streams)
+            ]
         else:
             self._streams = [ReferenceNetwork(params, self.shape) for _ in range(streams)]
         self._last_s = [None] * streams
@@ -296,7 +320,9 @@ class Network:
             stream = self._streams[i]
             turn = None if turns is None else turns[i]
             if isinstance(stream, CoreNetwork):
-                workspace = workspace or (Workspace(stream.p, stream.shape) if len(which) < len(block) else None)
+                workspace = workspace or (
+                    Workspace(stream.p, stream.shape, stream.storage) if len(which) < len(block) else None
+                )
                 if workspace is not None:
                     stream.use(workspace)
                 trace[i] = stream.run_block(block[i], times[i], turn)
