@@ -5,7 +5,8 @@
 
 A robot drives in the arena under the laptop's float network; its pictures and turns go to the firmware in QEMU, to the
 laptop's float network and to its compact one. Printed are the largest differences, and RAM, flash, stack and
-instructions for each frame. Exit status 1: spikes or decisions differ in more than 1 frame of 1000, or a limit is passed.
+instructions for each frame. Exit status 1: spikes or decisions differ in more than 1 frame of 1000, or a limit is
+passed.
 """
 
 from __future__ import annotations
