@@ -115,8 +115,8 @@ def _make_raw(fd: int, port: Port) -> None:
     characters[termios.VMIN], characters[termios.VTIME] = 1, 0
     control = termios.CS8 | termios.CREAD | termios.CLOCAL
     wanted = [termios.IGNBRK, 0, control, 0, code, code, characters]
-    termios.tcsetattr(fd, termios.TCSANOW, wanted)
     termios.tcflush(fd, termios.TCIFLUSH)  # what was kept from before is no news
+    termios.tcsetattr(fd, termios.TCSANOW, wanted)
     if termios.tcgetattr(fd)[5] != code:  # a call that succeeds need not have done all it was asked for
         raise FrameSourceError(f"{port.path}: does not run at {port.baud} baud: must be a rate of this device")
 
