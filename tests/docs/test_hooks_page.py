@@ -50,6 +50,7 @@ def test_the_targets_are_accepted(clip: None, target: str) -> None:
     for scheme, library in (
         ("mqtt", "paho"),
         ("mavlink", "pymavlink"),
+        ("foxglove", "foxglove"),
         ("mcap", "mcap"),
         ("rosbag", "rosbags"),
         ("rerun", "rerun"),
