@@ -76,7 +76,7 @@ class TestCheckpoint:
         assert told(call("arena", "--minutes", "0.2", "--checkpoint", "ck", "--json")) == whole
 
     def test_a_signal_leaves_a_report_and_a_checkpoint(self, spawn, call, tmp_path):
-        request = ("arena", "--minutes", "0.5", "--seed", "5", "--checkpoint", "ck", "--json")
+        request = ("arena", "--minutes", "0.3", "--seed", "5", "--checkpoint", "ck", "--json")
         process = spawn(*request)
         deadline_s = time.monotonic() + 30
         while not (tmp_path / "ck").exists() and process.poll() is None:
@@ -87,9 +87,9 @@ class TestCheckpoint:
         assert process.returncode == 143
         found = json.loads(out)
         assert found["status"] == "interrupted"
-        assert 0 <= found["minutes"] < 0.5
+        assert 0 <= found["minutes"] < 0.3
         assert "lobula: interrupted after" in err
-        assert load_snapshot(tmp_path / "ck")["minutes"] == 0.5
+        assert load_snapshot(tmp_path / "ck")["minutes"] == 0.3
         again = told(call(*request))
         os.remove(tmp_path / "ck")
         assert again == told(call(*request))
@@ -105,10 +105,11 @@ class TestCheckpoint:
         (("--world", "none.toml"), "none.toml"),
         (("--preset", "papre"), "preset 'papre'"),
         (("--events", "no/such.csv"), "no such folder no"),
-        (("--robots", "200"), "room"),
+        (("--world", "tiny.toml"), "no room for so many robots"),
     ],
 )
-def test_a_request_that_cannot_be_met(call, arguments, words):
+def test_a_request_that_cannot_be_met(call, tmp_path, arguments, words):
+    (tmp_path / "tiny.toml").write_text('[room]\nshape = "circle"\nradius_cm = 5\n')
     done = call("arena", "--json", *arguments)
     assert done.code == 2
     assert len(done.err.splitlines()) == 1

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from lobula.engine.library import available
-from lobula.experiments.battery import Scored, rate_changes, score
-from lobula.experiments.outcome import Outcome, checks, strongest_window
+from lobula.experiments.battery import Scored, own_rate_changes, score
+from lobula.experiments.outcome import Outcome, checks, first_alarm, strongest_window
 from lobula.model.presets import preset
 from lobula.stimuli.battery import battery
 from lobula.types import TRACE_DTYPE
@@ -50,12 +50,21 @@ def test_a_dark_approach_is_always_called_before_contact_and_nothing_else_ever_i
 
 @needs_core
 def test_all_four_neurons_decide_alike_at_other_frame_rates() -> None:
-    changed = [
-        c.name
-        for c in rate_changes(preset("paper"), [15.0, 60.0, 120.0])
-        if c.neurons == "all" and (c.at_30_hz_s is None) != (c.at_rate_s is None)
-    ]
-    assert all(name.startswith("angular") for name in changed)
+    found = own_rate_changes(preset("paper"), [15.0, 60.0, 120.0])
+    changed = [c for c in found if (c.at_30_hz_s is None) != (c.at_rate_s is None)]
+    assert {c.neurons for c in changed} <= {"all"}
+    assert all(c.name.startswith("angular") for c in changed)
+
+
+@needs_core
+def test_our_own_preset_takes_what_passes_for_an_approach() -> None:
+    """What docs/limits.md says of preset lobula, at one speed: both kinds of approach, and objects that pass."""
+    for name in ("looming-dark-8cm_s", "angular-from_left-45deg", "translating_right-dark-8cm_s"):
+        case = next(case for case in battery() if case.name == name)
+        assert first_alarm(case.movie(rate_hz=30.0), preset("lobula")) is not None, name
+    for name in ("receding-dark-8cm_s", "looming-bright-8cm_s"):
+        case = next(case for case in battery() if case.name == name)
+        assert first_alarm(case.movie(rate_hz=30.0), preset("lobula")) is None, name
 
 
 def test_the_strongest_window_is_counted_by_hand() -> None:

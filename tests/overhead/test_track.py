@@ -55,11 +55,16 @@ CAMERAS = {
 }
 
 
-@pytest.mark.parametrize("camera", CAMERAS.values(), ids=CAMERAS)
+@pytest.fixture(scope="module", params=CAMERAS.values(), ids=CAMERAS)
+def seen(request, truth):
+    """A camera, its view and what it films."""
+    view = TopView(ROOM, camera=request.param, samples=3)
+    return request.param, view, film(view, truth)
+
+
 @pytest.mark.parametrize("compressed", [False, True], ids=["pictures", "H.264"])
-def test_within_a_millimetre_and_a_degree(camera, compressed, truth, tmp_path):
-    view = TopView(ROOM, camera=camera, samples=3)
-    images = film(view, truth)
+def test_within_a_millimetre_and_a_degree(seen, compressed, truth, tmp_path):
+    camera, view, images = seen
     source = encoded(tmp_path / "clip.mp4", images) if compressed else images
     tracks = track(source, ROOM, by_corners(view, camera), **({} if compressed else {"rate_hz": 30.0}))
     assert tracks.ids == SEVEN

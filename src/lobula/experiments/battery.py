@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from ..model.network import NetworkParams
 from ..stimuli.battery import Case, battery
-from .outcome import Check, Engine, Outcome, checks, outcome
+from .outcome import Check, Engine, Outcome, checks, first_alarm, outcome
 
 AGREE_S = 0.067
 """Tolerance of a first alarm between frame rates."""
@@ -58,6 +58,19 @@ def rate_changes(params: NetworkParams, rates_hz: Collection[float], engine: Eng
             for neurons, (before, now) in pairs.items():
                 if not _agree(before, now):
                     yield RateChange(name, rate_hz, neurons, before, now)
+
+
+def own_rate_changes(
+    params: NetworkParams, rates_hz: Collection[float], engine: Engine = "auto"
+) -> Iterator[RateChange]:
+    """Yield the same for what ``params`` themselves decide, whoever decides in them."""
+    cases = list(battery())
+    base = {case.name: first_alarm(case.movie(rate_hz=30.0), params, engine) for case in cases}
+    for rate_hz in rates_hz:
+        for case in cases:
+            before, now = base[case.name], first_alarm(case.movie(rate_hz=rate_hz), params, engine)
+            if not _agree(before, now):
+                yield RateChange(case.name, rate_hz, params.decision.neurons, before, now)
 
 
 def _agree(a: float | None, b: float | None) -> bool:

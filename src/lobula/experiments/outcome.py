@@ -60,6 +60,11 @@ def outcome(movie: Movie, params: NetworkParams, engine: Engine = "auto") -> Out
     )
 
 
+def first_alarm(movie: Movie, params: NetworkParams, engine: Engine = "auto") -> float | None:
+    """Return when the network first calls a collision, s, decided as ``params`` say; None if it never does."""
+    return _first(Network(params, engine=engine).run(movie.images, movie.times_s))
+
+
 def strongest_window(trace: NDArray[Any]) -> int:
     """Return the most spikes that both LGMDs gave within ``WINDOW_S``, the lesser of the two."""
     times = trace["time_s"]

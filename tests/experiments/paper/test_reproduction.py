@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
 
 import pytest
 
@@ -86,7 +87,7 @@ def test_the_same_seeds_make_the_same_trials(folder) -> None:
 def test_a_file_that_cannot_be_written_is_named(tmp_path) -> None:
     (tmp_path / "fig4.csv").mkdir()
     with pytest.raises(OutputError, match=r"cannot write .*fig4\.csv"):
-        reproduce(FIGURES["fig4"], PLAN, tmp_path)
+        reproduce(FIGURES["fig4"], replace(PLAN, presets={"paper": lobula.preset("paper")}), tmp_path)
 
 
 @pytest.mark.parametrize("count", [0, -1, 501])
