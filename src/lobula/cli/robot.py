@@ -12,6 +12,7 @@ from ..errors import ParameterError
 if TYPE_CHECKING:
     from ..frames.selection import Selection
     from ..runtime.robot import RobotStream
+    from ..telemetry import Port
 
 
 def is_robot(source: str) -> bool:
@@ -37,18 +38,28 @@ def refuse_others(context: typer.Context, source: str, taken: frozenset[str]) ->
             )
 
 
-def open_robot(source: str, selection: Selection, reconnect: str | None, timeout_s: float | None) -> RobotStream:
-    """Return the robot at ``serial:PORT[@BAUD]``, once it has said what it is.
+def port_of(source: str) -> Port:
+    """Return the port and the rate that ``serial:PORT[@BAUD]`` names.
 
     Raises
     ------
-    ParameterError : another form, or an option out of range
+    ParameterError : another form, or a rate that this system does not have
+    """
+    from ..telemetry import parse_port
+
+    return parse_port(source)
+
+
+def open_robot(port: Port, selection: Selection, reconnect: str | None, timeout_s: float | None) -> RobotStream:
+    """Return the robot at ``port``, once it has said what it is.
+
+    Raises
+    ------
+    ParameterError : an option out of range
     FrameSourceError : no such port, or no robot that speaks
     """
     from ..runtime.robot import RobotStream
-    from ..telemetry import parse_port
     from .live import live_options
 
-    port = parse_port(source)
     options = {"reconnect_s": math.inf} | live_options(reconnect, timeout_s)
     return RobotStream(port, selection, **options)

@@ -15,7 +15,7 @@ from . import options as o
 from .call import new_app
 from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
 from .progress import Screen, screen
-from .robot import is_robot, open_robot, refuse_others
+from .robot import is_robot, open_robot, port_of, refuse_others
 
 if TYPE_CHECKING:
     from ..engine.network import Network
@@ -105,10 +105,11 @@ def run(
         with _summary_if_refused(json):
             refuse_others(context, source, OF_A_ROBOT)
             hooks = make_hooks(hook or (), hook_rate)
-            _check_outputs(source, trace, None, None, report, hooks)
+            port = port_of(source)
+            _check_outputs(port.path, trace, None, None, report, hooks)
             selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
-            robot = open_robot(source, selection, reconnect, timeout)
             files = _file_sinks(trace, None, None, report)
+            robot = open_robot(port, selection, reconnect, timeout)
         with robot, screen(robot.frame_count, robot.name) as here:
             return _watch_robot(robot, files, hooks, hook_rate, json, here)
 

@@ -15,7 +15,7 @@ from ..errors import ParameterError
 from . import options as o
 from .call import new_app
 from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
-from .robot import is_robot, open_robot, refuse_others
+from .robot import is_robot, open_robot, port_of, refuse_others
 
 if TYPE_CHECKING:
     from ..dashboard.board import Board
@@ -118,9 +118,10 @@ def serve(
     chosen = choose(preset, neurons, config, settings or (), sensitivity)
     hooks = make_hooks(hook or (), hook_rate)
     if is_robot(source):
-        check_files(hook_files(hooks))
+        line = port_of(source)
+        check_files(hook_files(hooks), {"source": line.path})
         selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
-        with open_robot(source, selection, reconnect, timeout) as robot:
+        with open_robot(line, selection, reconnect, timeout) as robot:
             return _watch_robot(robot, hooks, hook_rate, site, json)
     if Path(source).suffix.lower() in TRACE_SUFFIXES:
         _refuse_hooks(hooks, source)
