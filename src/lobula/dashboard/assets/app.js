@@ -57,20 +57,20 @@ function greet(hello) {
   if (run !== null) return location.reload();
   run = hello.run;
   about = hello;
-  const live = about.mode === "live", trace = about.mode === "trace";
+  const robot = about.mode === "robot", live = robot || about.mode === "live", trace = about.mode === "trace";
   record = new Record(live);
   thresholds = about.thresholds;
   $("name").textContent = about.name;
-  $("mode").textContent = { live: "live", recording: "recording", trace: "saved trace" }[about.mode];
+  $("mode").textContent = { live: "live", robot: "a robot, live", recording: "recording", trace: "saved trace" }[about.mode];
   document.title = `${about.name} · lobula`;
   $("facts").textContent = facts(about.facts, about.lobula);
   timeline = live ? null : makeTimeline(record, () => { changed(); ask(); });
   events = makeEvents(about.states, about.neurons, timeline && ((at) => timeline.seek(at)));
   events.show([]);
-  settings = trace ? null : makeSettings(about.settings);
+  settings = trace || robot ? null : makeSettings(about.settings);
   traces = makeTraces($("traces"), about.neurons, settings && drag);
-  if (trace) {
-    picture.say("A saved trace holds no pictures. Serve the clip itself to see them.");
+  if (trace || robot) {
+    picture.say(trace ? "A saved trace holds no pictures. Serve the clip itself to see them." : "A robot sends what it decides, and no pictures.");
     document.querySelector("main").classList.add("plain");
     $("layers").hidden = true;
   } else layers();
@@ -156,7 +156,8 @@ function figures() {
   } else {
     if (status.latency) shown.push(["latency, median", milliseconds(status.latency.median)], ["latency, worst", milliseconds(status.latency.worst)]);
     if (status.work) shown.push(["network, median", milliseconds(status.work.median)]);
-    shown.push(["dropped", status.dropped ?? 0, (status.dropped ?? 0) > 0]);
+    shown.push([about.mode === "robot" ? "lost" : "dropped", status.dropped ?? 0, (status.dropped ?? 0) > 0]);
+    if (status.motor) shown.push(["wheels", status.motor.replaceAll("_", " ")]);
     if (status.damaged) shown.push(["damaged", status.damaged, true]);
   }
   shown.push(["viewers", status.viewers ?? 1]);
