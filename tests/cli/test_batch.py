@@ -21,6 +21,9 @@ from lobula.report.grey_clip import write_grey_clip
 from lobula.report.trace_file import read_trace
 
 FRAMES, CLIPS = 600, 6
+PATIENCE_S = 300
+"""On a busy machine all takes longer; what hangs, hangs longer."""
+
 VOLATILE = ("seconds", "date")
 """Columns that differ from run to run."""
 
@@ -149,7 +152,7 @@ class TestWhatTheUserSees:
             except OSError:
                 break
         os.close(ours)
-        assert process.wait(60) == 0
+        assert process.wait(PATIENCE_S) == 0
         assert b"clips" in shown
         assert b"2/2" in shown
 
@@ -207,15 +210,6 @@ def test_nobody_at_the_address_of_the_cluster(call, folder, monkeypatch):
     assert done.err.count("\n") == 1
 
 
-def test_a_cluster_on_this_machine(spawn, folder, tmp_path):
-    pytest.importorskip("distributed", reason="needs the extra dask, too large for the tests")
-    process = spawn("batch", "clips", "--out", "out", "--cluster", "dask", "--workers", 1)
-    out, err = process.communicate(timeout=100)
-    assert (process.returncode, err) == (0, "")
-    assert "2 clips: 2 ok; " in out
-    done_once(tmp_path / "out", 2)
-
-
 def test_a_folder_that_cannot_be_written_into(call, folder):
     done = call("batch", "clips", "--out", "/proc/out")
     assert done.code in (2, 3)
@@ -224,7 +218,7 @@ def test_a_folder_that_cannot_be_written_into(call, folder):
 
 def wait_for_rows(out, count):
     """Return when so many clips are finished."""
-    deadline_s = time.monotonic() + 60
+    deadline_s = time.monotonic() + PATIENCE_S
     while not (out / "manifest.ndjson").exists() or len(manifest(out)) < count:
         assert time.monotonic() < deadline_s
         time.sleep(0.005)
@@ -279,7 +273,7 @@ class TestStopped:
         process = spawn("batch", "many", "--out", "out", "--workers", 2, start_new_session=True)
         wait_for_rows(tmp_path / "out", 1)
         os.killpg(process.pid, number)  # as a terminal does
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=PATIENCE_S)
         assert process.returncode == code
         assert err == f"lobula: interrupted ({number.name}): the same command goes on from here\n"
         assert "not finished" in out
@@ -294,7 +288,7 @@ class TestStopped:
         orphans = workers(process.pid)
         process.kill()
         process.wait()
-        deadline_s = time.monotonic() + 30
+        deadline_s = time.monotonic() + PATIENCE_S
         while not all(map(gone, orphans)):
             assert time.monotonic() < deadline_s
             time.sleep(0.01)
@@ -306,16 +300,32 @@ class TestStopped:
         wait_for_rows(tmp_path / "out", 1)
         for pid in workers(process.pid):
             os.kill(pid, signal.SIGKILL)
-        _, err = process.communicate(timeout=60)
+        _, err = process.communicate(timeout=PATIENCE_S)
         assert (process.returncode, err) == (0, "")
         assert table(tmp_path / "out") == whole
         done_once(tmp_path / "out")
 
     def test_two_runs_at_once_share_the_work(self, spawn, many, tmp_path, whole):
         both = [spawn("batch", "many", "--out", "out", "--workers", 1) for _ in range(2)]
-        printed = [process.communicate(timeout=100) for process in both]
+        printed = [process.communicate(timeout=PATIENCE_S) for process in both]
         assert [process.returncode for process in both] == [0, 0]
         assert [err for _, err in printed] == ["", ""]
+        assert table(tmp_path / "out") == whole
+        done_once(tmp_path / "out")
+
+    def test_with_a_cluster_on_this_machine(self, spawn, many, tmp_path, whole):
+        pytest.importorskip("distributed", reason="needs the extra dask, too large for the tests")
+        command = ("batch", "many", "--out", "out", "--cluster", "dask", "--workers", 2)
+        process = spawn(*command, start_new_session=True)
+        wait_for_rows(tmp_path / "out", 1)
+        os.killpg(process.pid, signal.SIGINT)
+        _, err = process.communicate(timeout=PATIENCE_S)
+        assert process.returncode == 130
+        assert err == "lobula: interrupted (SIGINT): the same command goes on from here\n"
+        process = spawn(*command)
+        out, err = process.communicate(timeout=PATIENCE_S)
+        assert (process.returncode, err) == (0, "")
+        assert f"{CLIPS} clips: {CLIPS} ok, " in out
         assert table(tmp_path / "out") == whole
         done_once(tmp_path / "out")
 
@@ -325,7 +335,7 @@ class TestStopped:
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 
         process = spawn("batch", "many", "--out", "out", "--workers", 1, preexec_fn=small_disk)
-        out, err = process.communicate(timeout=60)
+        out, err = process.communicate(timeout=PATIENCE_S)
         assert process.returncode == 3
         assert err.startswith("lobula: cannot write ")
         assert err.count("\n") == 1

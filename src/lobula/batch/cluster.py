@@ -13,7 +13,7 @@ from types import TracebackType
 from typing import Any, Self
 
 from ..errors import LobulaError, MissingExtraError, OutputError, ParameterError, pip_install
-from ..workers import check_workers
+from ..workers import check_workers, starting_workers
 from .clips import Clip
 from .crew import Outcome
 from .request import Request
@@ -59,10 +59,11 @@ class Cluster:
             logging.getLogger(name).setLevel(logging.CRITICAL)  # what matters of what they tell, we tell
         with ExitStack() as opening:
             if self._address == LOCAL:
-                cluster = self._dask.LocalCluster(
-                    n_workers=self.workers, threads_per_worker=1, memory_limit=0, dashboard_address=None,
-                    silence_logs=logging.CRITICAL,
-                )  # fmt: skip
+                with starting_workers():  # they stay deaf to the terminal: Dask leaves the signals as they are
+                    cluster = self._dask.LocalCluster(
+                        n_workers=self.workers, threads_per_worker=1, memory_limit=0, dashboard_address=None,
+                        silence_logs=logging.CRITICAL,
+                    )  # fmt: skip
                 self._client = opening.enter_context(self._dask.Client(opening.enter_context(cluster)))
             else:
                 self._client = opening.enter_context(self._connected())
