@@ -213,6 +213,24 @@ def test_a_picture_is_a_copy_and_comes_at_its_own_rate():
     assert got == [0, None, None, 3, None, None]
 
 
+def test_pictures_that_cannot_be_made_are_told_once_and_stop_neither_run_nor_hook():
+    class WithPictures(Scripted):
+        readings_hz = pictures_hz = float("inf")
+
+    def picture():
+        raise ValueError("no way from bayer to rgb24")
+
+    hook = WithPictures()
+    office = opened(hook)
+    for number in range(5):
+        office.frame(number, reading(number / 30), picture)
+    office.close(SUMMARY)
+    assert hook.frames == [0, 1, 2, 3, 4, None]
+    tally = office.tallies()[0]
+    assert (tally["sent"], tally["failures"]) == (6, 1)
+    assert tally["problem"] == "no pictures: ValueError('no way from bayer to rgb24')"
+
+
 @pytest.mark.parametrize(("width", "kept"), [(640, 640), (1279, 1279), (1920, 640), (3840, 640)])
 def test_a_wide_picture_is_thinned_out_before_it_waits(width, kept):
     """Forty of them may wait: of a 4K camera they would be a gigabyte."""

@@ -58,8 +58,7 @@ class Post:
         self._begin()
         if not self._carries_readings or not self._readings.due(reading.time_s):
             return
-        wanted = picture is not None and self._pictures.due(reading.time_s)
-        self._put(reading_told(index, reading, _kept(picture()) if wanted and picture is not None else None))
+        self._put(reading_told(index, reading, self._shown(reading.time_s, picture)))
 
     def event(self, record: Mapping[str, Any]) -> None:
         """Queue an event."""
@@ -95,6 +94,17 @@ class Post:
         if self._thread is None:
             self._thread = threading.Thread(target=self._work, name=f"lobula hook {self._hook.name}", daemon=True)
             self._thread.start()
+
+    def _shown(self, time_s: float, picture: Picture | None) -> NDArray[np.uint8] | None:
+        """Return a copy of the picture, if one is due; one that cannot be made is the last that is asked for."""
+        if picture is None or not self._pictures.due(time_s):
+            return None
+        try:
+            return _kept(picture())
+        except Exception as error:  # the run needs no colours: it goes on, and so does the hook
+            self._ledger.fail(RefusedError(f"no pictures: {error!r}"))
+            self._pictures = Pace(0)
+            return None
 
     def _put(self, message: Message) -> None:
         if self._hook.wants(message) and self._mailbox.put(message):
