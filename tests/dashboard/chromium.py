@@ -118,7 +118,7 @@ class Page:
         assert "exceptionDetails" not in result, result["exceptionDetails"]
         return result["result"].get("value")
 
-    def until(self, expression: str, timeout_s: float = 40.0) -> None:
+    def until(self, expression: str, timeout_s: float = 120.0) -> None:
         """Wait until an expression is true; one that fails, as while the page is loaded anew, is not yet."""
         careful = f"(() => {{ try {{ return !!({expression}) }} catch {{ return false }} }})()"
         _eventually(lambda: self.js(careful), timeout_s, expression)

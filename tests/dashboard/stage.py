@@ -174,7 +174,7 @@ class Watcher:
     def send(self, wish: Any) -> None:
         self.socket.send(json.dumps(wish))
 
-    def take(self, timeout_s: float = 20.0) -> Message:
+    def take(self, timeout_s: float = 60.0) -> Message:
         return taken_apart(self.socket.recv(timeout_s))
 
     def all(self, silent_s: float) -> list[Message]:
@@ -194,7 +194,7 @@ class Watcher:
         except ConnectionClosed as closed:
             return None if closed.rcvd is None else closed.rcvd.code
 
-    def until(self, true: Callable[[Message], Any], timeout_s: float = 30.0) -> Message:
+    def until(self, true: Callable[[Message], Any], timeout_s: float = 90.0) -> Message:
         deadline_s = time.monotonic() + timeout_s
         while time.monotonic() < deadline_s:
             message = self.take(timeout_s)

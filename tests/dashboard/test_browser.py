@@ -177,6 +177,9 @@ class TestLive:
                 port = stage.site.port
             page.until("document.querySelector('#notice').textContent.includes('Trying again')")
             assert page.js("document.body.classList.contains('lost')")
+            assert page.js(STATE) == "ended"  # and not ok any more
+            page.look(1000, 700)  # drawn anew
+            assert page.js(STATE) == "ended"
             with live(images, port=port):
                 page.until("!document.body.classList.contains('lost') && document.querySelector('#notice').hidden")
                 page.until(f"(window.before ??= {TRACE}) !== {TRACE}")  # whatever is loaded anew meanwhile

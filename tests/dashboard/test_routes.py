@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import re
 import socket
 import time
@@ -332,6 +333,14 @@ class TestTheAddress:
     def test_a_port_that_is_taken(self, site):
         with pytest.raises(ParameterError, match=rf"--port {site.port}: is taken: must be a free port, or 0 for any"):
             Site(board(), toml, port=site.port)
+
+    def test_a_port_that_is_the_systems(self, monkeypatch):
+        def refuse(*_):
+            raise PermissionError(errno.EACCES, "Permission denied")
+
+        monkeypatch.setattr(socket.socket, "bind", refuse)
+        with pytest.raises(ParameterError, match="--port 80: may not be used by this user: must be 1024 or above"):
+            Site(board(), toml, port=80)
 
     def test_an_address_of_another_machine(self):
         with pytest.raises(ParameterError, match=r"--host 192.0.2.1, --port 0: must be an address of this machine"):

@@ -8,13 +8,14 @@ import { makeSettings } from "./settings.js";
 import { connect } from "./stream.js";
 import { makeTimeline } from "./timeline.js";
 import { makeTraces } from "./traces.js";
-import { milliseconds } from "./words.js";
+import { counted, milliseconds } from "./words.js";
 
 const $ = (id) => document.getElementById(id);
 const PAST = 0.75; // of the window lies before the moment shown, in a recording
 
 let run = null, about = null, record = null, traces, picture = makePicture(), events, settings, timeline;
-let fitted = false, status = {}, thresholds = {}, collisions = 0, drawn = false, asked = null, told = "";
+let fitted = false, status = {}, thresholds = {}, collisions = 0, drawn = false, asked = null, told = "", why = [];
+let here = false; // whether there is a connection
 
 if (location.search) history.replaceState(null, "", "/"); // the token has become a cookie: nobody need see it
 
@@ -35,7 +36,7 @@ const stream = connect({
     }
     if (head.scene) {
       picture.show(head.scene, jpeg, map);
-      explain(head.scene.why);
+      why = head.scene.why;
       if (timeline) asked = null;
     }
     status = head.status;
@@ -44,12 +45,20 @@ const stream = connect({
     if (timeline && !asked) ask();
   },
   state(connected, reason) {
+    here = connected;
     document.body.classList.toggle("lost", !connected);
-    if (connected) return tellProblems();
-    const ended = status.ended ? `The run has ended: ${[status.ended.status.replaceAll("_", " "), ...status.ended.problems].join(". ")}. ` : "";
-    notice(`${ended}${reason || "No connection"}. Trying again.`);
+    if (connected) return notice(status.problem ?? "");
+    pill("lost", status.ended ? "ended" : "no connection");
+    notice(`${ended()}${reason || "No connection"}. Trying again.`);
   },
 });
+
+/** How the run ended, where it has. */
+function ended() {
+  if (!status.ended) return "";
+  const { status: how, problems } = status.ended;
+  return `The run has ended: ${problems.join(". ") || how.replaceAll("_", " ")}. `;
+}
 
 /** Build the page for what is shown; anew where another program answers than before. */
 function greet(hello) {
@@ -83,7 +92,7 @@ function layers() {
   for (const [group, names] of Object.entries(about.maps)) {
     const options = document.createElement("optgroup");
     options.label = group;
-    options.append(...names.map((name) => new Option(name.replace(/^lgmd[12]_/, "").replaceAll("_", " "), name)));
+    options.append(...names.map((name) => new Option(name.replace(/^lgmd(.)_/, "LGMD-$1 ").replaceAll("_", " "), name)));
     $("layer").append(options);
   }
   $("layer").onchange = () => {
@@ -134,8 +143,9 @@ function draw() {
   const state = timeline ? row.state : status.state ?? row.state, collision = row.collision && state !== "stale";
   const words = about.states.find(({ name }) => name === state).label;
   picture.mark(collision, state, words);
-  pill(collision ? "collision" : state, collision ? "COLLISION" : words);
-  figures();
+  if (here) pill(collision ? "collision" : state, collision ? "COLLISION" : words);
+  explain(state);
+  figures(state);
 }
 
 function pill(kind, words) {
@@ -143,15 +153,15 @@ function pill(kind, words) {
   told = kind;
   $("state").className = `pill ${kind}`;
   $("state").textContent = words;
-  document.title = `${kind === "collision" ? "COLLISION · " : ""}${about.name} · lobula`;
+  document.title = `${kind === "collision" ? "COLLISION · " : ""}${about ? `${about.name} · ` : ""}lobula`;
 }
 
-function figures() {
+function figures(state) {
   const shown = [];
-  const rate = ratePerSecond();
-  if (rate) shown.push(["frames / s", rate.toFixed(rate < 10 ? 1 : 0)]);
+  const rate = state === "stale" && !timeline ? 0 : ratePerSecond();
+  shown.push(["frames / s", rate.toFixed(rate && rate < 10 ? 1 : 0)]);
   if (timeline) {
-    shown.push(["frames", record.length], ["collisions", collisions]);
+    shown.push([counted(record.length, "frame"), record.length], [counted(collisions, "collision"), collisions]);
     if (!status.complete) shown.push(["analysed", status.total ? `${Math.min(100, Math.round((100 * record.length) / status.total))} %` : "…"]);
   } else {
     if (status.latency) shown.push(["latency, median", milliseconds(status.latency.median)], ["latency, worst", milliseconds(status.latency.worst)]);
@@ -160,7 +170,7 @@ function figures() {
     if (status.motor) shown.push(["wheels", status.motor.replaceAll("_", " ")]);
     if (status.damaged) shown.push(["damaged", status.damaged, true]);
   }
-  shown.push(["viewers", status.viewers ?? 1]);
+  shown.push([counted(status.viewers ?? 1, "viewer"), status.viewers ?? 1]);
   const text = JSON.stringify(shown);
   if (figures.last === text) return;
   figures.last = text;
@@ -178,13 +188,16 @@ function ratePerSecond() {
   return span > 0 ? (record.length - 1 - from) / span : 0;
 }
 
-function explain(why) {
+function explain(state) {
   $("why").hidden = !why.length;
-  if (!why.length) return;
+  const blind = state === "stale";
+  if (!why.length || (explain.last === why && explain.blind === blind)) return;
+  [explain.last, explain.blind] = [why, blind];
   const unmet = why.find((one) => !one.holds);
-  $("verdict").textContent = unmet ? `No collision: ${unmet.because}` : "Collision: every condition holds";
-  $("verdict").className = unmet ? "" : "collision";
-  $("conditions").replaceChildren(...why.map((one) => Object.assign(document.createElement("li"), {
+  const met = unmet ? `No collision: ${unmet.because}` : "Collision: every condition holds";
+  $("verdict").textContent = blind ? "Nothing is decided: no new picture comes" : met;
+  $("verdict").className = unmet || blind ? "" : "collision";
+  $("conditions").replaceChildren(...(blind ? [] : why).map((one) => Object.assign(document.createElement("li"), {
     className: one.holds ? "" : "no", textContent: one.because,
   })));
 }
@@ -192,10 +205,6 @@ function explain(why) {
 function notice(words) {
   $("notice").hidden = !words;
   if ($("notice").textContent !== words) $("notice").textContent = words;
-}
-
-function tellProblems() {
-  notice(status.problem ?? "");
 }
 
 function facts(known, version) {

@@ -23,16 +23,17 @@ export function makeEvents(states, neurons, go) {
 function paired(records) {
   const items = [], open = new Map();
   for (const record of records) {
-    const key = record.type === "collision" ? `collision ${record.id}` : `${record.type} ${record.state ?? record.hook}`;
-    if (record.phase === "end") {
+    const key = `${record.type} ${record.id ?? record.state ?? record.hook}`;
+    if (record.phase === "end" || record.phase === "back") {
       const item = open.get(key) ?? { ...record, time_s: null };
       if (!open.has(key)) items.push(item);
       item.end = record;
       open.delete(key);
-    } else {
+    } else if (record.phase === "retry" && open.has(key)) open.get(key).tried = record;
+    else {
       const item = { ...record };
       items.push(item);
-      if (record.phase === "start") open.set(key, item);
+      if (record.phase === "start" || record.phase === "lost") open.set(key, item);
     }
   }
   return items;
@@ -41,8 +42,8 @@ function paired(records) {
 function entry(item, named, neurons, go) {
   const line = document.createElement("li"), title = document.createElement("b"), text = document.createElement("span");
   line.className = item.type;
-  title.textContent = item.type === "collision" ? `Collision ${item.id}` : named[item.state] ?? `${item.type} ${item.hook ?? item.phase}`;
-  text.textContent = ` ${stretch(item)}`;
+  title.textContent = titled(item, named);
+  text.textContent = ` ${stretch(item)}${more(item)}`;
   line.append(title, text);
   if (item.type === "collision" && item.lgmd1 !== undefined) {
     const values = document.createElement("div");
@@ -55,8 +56,6 @@ function entry(item, named, neurons, go) {
     }
     line.append(values);
   }
-  if (item.type === "source") text.textContent += Object.entries(item).filter(([key]) => !["type", "phase", "frame", "time_s"].includes(key)).map(([key, value]) => `, ${key.replaceAll("_", " ")} ${value}`).join("");
-  if (item.problem) text.textContent += `, ${item.problem}`;
   if (go && item.time_s !== null) {
     line.classList.add("seek");
     line.tabIndex = 0;
@@ -66,9 +65,24 @@ function entry(item, named, neurons, go) {
   return line;
 }
 
+function titled(item, named) {
+  if (item.type === "collision") return `Collision ${item.id}`;
+  if (item.type === "source") return { resized: "New picture size", restarted: "Robot switched on anew", settings: "Other settings" }[item.phase] ?? "Source lost";
+  return named[item.state] ?? `${item.type} ${item.hook ?? item.phase}`;
+}
+
+/** What there is to say beside when it was. */
+function more(item) {
+  if (item.phase === "resized") return `: ${item.width} \u00d7 ${item.height} px`;
+  if (item.phase === "settings") return `: ${item.settings_hash} of preset ${item.preset}`;
+  const parts = [item.reason, item.tried && !item.end && `try ${item.tried.attempt} failed: ${item.tried.reason}`];
+  if (item.end?.phase === "back") parts.push(`back at try ${item.end.attempt}`);
+  return [...parts, item.problem].filter(Boolean).map((part) => `; ${part}`).join("");
+}
+
 function stretch(item) {
   const from = item.time_s === null ? "" : `${item.time_s.toFixed(2)} s`;
-  if (!item.end) return item.phase === "start" ? `since ${from}` : `at ${from}`;
+  if (!item.end) return item.phase === "start" || item.phase === "lost" ? `since ${from}` : `at ${from}`;
   if (item.time_s === null) return `until ${item.end.time_s.toFixed(2)} s`;
   return `${item.time_s.toFixed(2)} to ${item.end.time_s.toFixed(2)} s, ${(item.end.time_s - item.time_s).toFixed(2)} s long`;
 }

@@ -20,22 +20,24 @@ export function paper(canvas) {
   return { context, width, height };
 }
 
-/** Fill what lies behind a curve: panel, states other than ok, collisions. `x` gives the place of a row's time. */
+/** Fill what lies behind a curve: panel, states other than ok and silence, collisions. `x`: the place of a row's time. */
 export function ground(context, record, from, to, x, width, height) {
   context.fillStyle = ink("panel");
   context.fillRect(0, 0, width, height);
-  for (const [column, other, colour, alpha] of [[record.state, 0, "dim", 0.2], [record.collision, 0, "hit", 0.28]]) {
+  const stretch = (colour, alpha, holds) => {
     context.fillStyle = ink(colour);
     context.globalAlpha = alpha;
     for (let i = from; i <= to; i++) {
-      if (column[i] === other) continue;
+      if (!holds(i)) continue;
       let end = i;
-      while (end < to && column[end + 1] !== other) end++;
+      while (end < to && holds(end + 1)) end++;
       const left = x(i), right = end < to ? x(end + 1) : x(end) + 1;
       context.fillRect(left, 0, Math.max(right - left, 1), height);
       i = end;
     }
-  }
+  };
+  stretch("dim", 0.2, (i) => record.state[i] || record.silentAfter(i));
+  stretch("hit", 0.28, (i) => record.collision[i] && !record.silentAfter(i));
   context.globalAlpha = 1;
 }
 

@@ -13,16 +13,19 @@ export function makePicture() {
   async function draw() {
     if (busy || document.hidden) return;
     busy = true;
-    while (waiting) {
-      const jpeg = waiting;
-      waiting = null;
-      const image = await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" }));
-      if (canvas.width !== image.width || canvas.height !== image.height) [canvas.width, canvas.height] = [image.width, image.height];
-      canvas.getContext("2d").drawImage(image, 0, 0);
-      image.close();
-      nothing.hidden = true;
+    try {
+      while (waiting) {
+        const jpeg = waiting;
+        waiting = null;
+        const image = await createImageBitmap(new Blob([jpeg], { type: "image/jpeg" }));
+        if (canvas.width !== image.width || canvas.height !== image.height) [canvas.width, canvas.height] = [image.width, image.height];
+        canvas.getContext("2d").drawImage(image, 0, 0);
+        image.close();
+        nothing.hidden = true;
+      }
+    } finally {
+      busy = false; // one picture that cannot be drawn is no reason to draw none any more
     }
-    busy = false;
   }
 
   function drawMap() {
@@ -55,6 +58,7 @@ export function makePicture() {
     /** Say what was decided, on the picture itself. */
     mark(collision, state, words) {
       stage.classList.toggle("collision", collision);
+      stage.classList.toggle("stale", state === "stale");
       label.hidden = !collision && state === "ok";
       label.className = collision ? "collision" : state;
       const text = collision ? "COLLISION" : words;

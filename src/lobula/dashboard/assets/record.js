@@ -1,6 +1,7 @@
 // The readings this page has: columns in typed arrays, numbered as the program numbers them.
 
 const LIVE_ROWS = 16384;
+const SILENT_S = 1; // no row for longer than this: nothing was seen, and nothing is drawn
 
 export class Record {
   /** `live`: the oldest rows make way for new ones. */
@@ -44,6 +45,11 @@ export class Record {
       else high = middle;
     }
     return low - 1;
+  }
+
+  /** Whether a live source gave nothing for long after the row at `place`. */
+  silentAfter(place) {
+    return this.live && place + 1 < this.length && this.time[place + 1] - this.time[place] > SILENT_S;
   }
 
   get first() { return this.length ? this.time[0] : 0; }

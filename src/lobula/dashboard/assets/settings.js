@@ -60,7 +60,7 @@ export function makeSettings(described) {
   function show(now) {
     values = now.values;
     for (const [path, control] of controls) if (!(path in pending)) control.set(values[path]);
-    if (now.settings_hash) document.getElementById("hash").textContent = now.settings_hash;
+    if (now.settings_hash) document.getElementById("hash").textContent = `hash ${now.settings_hash}`;
   }
 
   return { show, change };
@@ -75,7 +75,7 @@ function makeControl(about, changed) {
   label.htmlFor = field.id = id;
   root.title = `${about.path}: ${about.meaning}`;
   unit.className = "unit";
-  unit.textContent = about.unit;
+  unit.textContent = about.unit.replace("^2", "\u00b2");
   back.type = "button";
   back.textContent = "↺";
   back.setAttribute("aria-label", `${about.label}: back to ${about.start}`);

@@ -91,31 +91,35 @@ function drawRow({ neuron, number, canvas, level }, record, from, to, place, sha
   context.fillStyle = ink("dim");
   context.font = "10px system-ui, sans-serif";
   context.textBaseline = "top";
-  context.fillText(`${neuron.high}`, 4, 3);
+  context.fillText(`${neuron.high}`, 4, MARGIN + 3);
   context.textBaseline = "bottom";
-  context.fillText(`${neuron.low}`.replace("-", "\u2212"), 4, curve - 2);
+  context.fillText(`${neuron.low}`.replace("-", "\u2212"), 4, curve - MARGIN - 2);
 }
 
 function drawCurve(context, record, number, from, to, x, y, rest, colour, width) {
-  // More rows than pixels: of each pixel the lowest and the highest, so that no peak is lost.
-  const points = [];
-  if (to - from > 2 * width) {
-    for (let i = from; i <= to; ) {
-      const column = Math.floor(x(i));
-      let low = Infinity, high = -Infinity;
-      for (; i <= to && Math.floor(x(i)) === column; i++) {
-        const value = record.potentials[4 * i + number];
-        low = Math.min(low, value);
-        high = Math.max(high, value);
-      }
-      points.push([column, y(low)], [column, y(high)]);
-    }
-  } else for (let i = from; i <= to; i++) points.push([x(i), y(record.potentials[4 * i + number])]);
-  const line = new Path2D();
-  for (const [left, top] of points) line.lineTo(left, top);
-  const area = new Path2D(line);
-  area.lineTo(points.at(-1)[0], rest);
-  area.lineTo(points[0][0], rest);
+  // More rows than pixels: of each pixel the lowest and the highest, so that no peak is lost. Silence parts the line.
+  const line = new Path2D(), area = new Path2D(), dense = to - from > 2 * width;
+  let points = [];
+  for (let i = from; i <= to; ) {
+    const column = Math.floor(x(i));
+    let low = Infinity, high = -Infinity, last;
+    do {
+      last = i++;
+      const value = record.potentials[4 * last + number];
+      low = Math.min(low, value);
+      high = Math.max(high, value);
+    } while (dense && i <= to && Math.floor(x(i)) === column && !record.silentAfter(last));
+    if (dense) points.push([column, y(low)], [column, y(high)]);
+    else points.push([x(last), y(high)]);
+    if (i <= to && !record.silentAfter(last)) continue;
+    const piece = new Path2D();
+    for (const [left, top] of points) piece.lineTo(left, top);
+    line.addPath(piece);
+    piece.lineTo(points.at(-1)[0], rest);
+    piece.lineTo(points[0][0], rest);
+    area.addPath(piece);
+    points = [];
+  }
   context.globalAlpha = 0.16;
   context.fillStyle = colour;
   context.fill(area);
