@@ -11,7 +11,7 @@
 
 #include "real.h"
 
-#if defined(LOBULA_PLAIN)
+#if defined(LOBULA_PLAIN) || !defined(LOBULA_LAPTOP)
 #define LANES 1
 #elif defined(__AVX512F__) && defined(__AVX512VL__) && defined(__AVX512BW__) && defined(__AVX512DQ__)
 #define LANES 16

@@ -21,7 +21,7 @@ int main(void) {
     lobula_reading r;
     lobula_motor motor;
 
-    lobula_init(&state);
+    if (lobula_init(&state) != 0) return 1;
     lobula_motor_init(&motor, 1);
     puts("frame,lgmd1,lgmd2,lptc_r,lptc_l,spikes_lgmd1,spikes_lgmd2,spikes_lptc_r,spikes_lptc_l,collision,action,left,right");
     for (long frame = 0;; frame++) {
