@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from lobula import preset
-from lobula.arena import running
+from lobula.arena import course
 from lobula.arena.controller import ControllerError
 from lobula.arena.controls import NeverTurn, RandomTurn
+from lobula.arena.course import Run
 from lobula.arena.network_controller import NetworkController
-from lobula.arena.running import Run, RunInterrupted, run
+from lobula.arena.running import RunInterrupted, run
 from lobula.arena.snapshot import save_snapshot
 from lobula.arena.world import CameraParams, RobotParams, RoomParams, World
 from lobula.errors import ParameterError
@@ -56,7 +57,7 @@ def interrupts() -> None:
 
 @pytest.fixture(autouse=True)
 def _short_stretches(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(running, "SNAPSHOT_MINUTES", 0.1)
+    monkeypatch.setattr(course, "SNAPSHOT_MINUTES", 0.1)
 
 
 def go(controller: Any = None, **settings: Any) -> Run:

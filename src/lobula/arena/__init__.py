@@ -16,11 +16,12 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .controller import Controller, ControllerError
     from .controls import AlwaysTurn, NeverTurn, RandomTurn
+    from .course import Run
     from .each_robot import EachRobot
     from .eye import Eye
     from .network_controller import NetworkController
     from .record import Record, load_record
-    from .running import Run, RunInterrupted, run
+    from .running import RunInterrupted, run
     from .scene import Scene, build_scene
     from .scoring import Score
     from .simulation import Simulation
@@ -60,7 +61,7 @@ _HOMES = {
     "NeverTurn": "controls",
     "RandomTurn": "controls",
     "Record": "record",
-    "Run": "running",
+    "Run": "course",
     "RunInterrupted": "running",
     "Scene": "scene",
     "Score": "scoring",

@@ -28,7 +28,7 @@ Bools = NDArray[np.bool_]
 class ControllerError(LobulaError, RuntimeError):
     """A controller that raised, or that returned something other than a decision for each robot.
 
-    ``run`` is what was done before, a ``running.Run``, where ``arena.run`` raised it.
+    ``run`` is what was done before, a ``course.Run``, where ``arena.run`` raised it.
     """
 
     run: Any = None

@@ -15,7 +15,7 @@ from .call import new_app
 from .counted import counted
 
 if TYPE_CHECKING:
-    from ..arena.running import Run
+    from ..arena.course import Run
     from ..runtime.interrupts import Interrupted
     from .arena_saves import Shown
     from .progress import Screen

@@ -11,7 +11,7 @@ from .counted import counted
 from .table import table
 
 if TYPE_CHECKING:
-    from ..arena.running import Run
+    from ..arena.course import Run
     from ..arena.scoring import Score, Tally
     from .settings import Chosen
 

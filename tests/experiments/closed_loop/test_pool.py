@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lobula.arena import World, running
+from lobula.arena import World, course, running
 from lobula.errors import ParameterError
 from lobula.experiments.closed_loop import jobs as jobs_module
 from lobula.experiments.closed_loop.code_hash import code_hash
@@ -69,14 +69,14 @@ def test_what_is_finished_is_not_done_again(one_worker, tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("number", [0, 2])
 def test_interrupted_in_the_middle_of_a_job_it_ends_the_same(one_worker, tmp_path, monkeypatch, number):
-    real = running.Course.tick
+    real = course.Course.tick
 
     def tick(self, progress):
         real(self, progress)
         if self.simulation.tick_count == 40:
             signal.raise_signal(signal.SIGTERM)
 
-    monkeypatch.setattr(running.Course, "tick", tick)
+    monkeypatch.setattr(course.Course, "tick", tick)
     with pytest.raises(Interrupted, match="SIGTERM") as stopped:
         run_jobs([JOBS[number]], tmp_path)
     assert stopped.value.exit_code == 143
