@@ -161,6 +161,9 @@ def asleep(hook):
         b"GET / HTTP/1.1\r\nHost: x\r\nUpgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
         b"Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==\r\nSec-WebSocket-Protocol: foxglove.sdk.v1\r\n\r\n"
     )
+    answer = b""
+    while b"\r\n\r\n" not in answer:
+        answer += link.recv(4096)
     channels = [channel.id() for channel in hook._channels.values()]
     request = {"op": "subscribe", "subscriptions": [{"id": number, "channelId": number} for number in channels]}
     text = json.dumps(request).encode()
