@@ -11,7 +11,8 @@ import pytest
 
 from lobula.arena import World
 from lobula.errors import ParameterError
-from lobula.experiments.closed_loop.ceiling import RULES, Rule, drive, main, robot_comes, wall_comes
+from lobula.experiments.closed_loop.ceiling import RULES, main
+from lobula.experiments.closed_loop.informed import Rule, drive, robot_comes, wall_comes
 
 WORLD = World()
 """70 x 55 cm, radius 2 cm, margin 1 cm (5 cm between centres), 70 degrees from 1.33 cm ahead of the centre."""
