@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import multiprocessing
 
 import pytest
 
@@ -13,7 +14,15 @@ from lobula.tuning.identity import identity, require_same
 from lobula.tuning.journal import JOURNAL, ROUND, Search, opened
 from lobula.tuning.search import tune
 
-from .fake import PLANTED, asked, fake_task, folded_task, plan
+from .fake import PLANTED, FakeTask, asked, fake_task, folded_task, plan
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _workers_that_have_everything_loaded():
+    multiprocessing.set_forkserver_preload([FakeTask.__module__])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("lobula.tuning.crew.get_context", lambda kind: multiprocessing.get_context("forkserver"))
+        yield
 
 
 def run(folder, task=None, *, advance=None, **budget):
@@ -206,7 +215,7 @@ class TestRefusing:
             ({"trials": 0}, "0 trials: must be 1 to"),
             ({"minutes": 0.0}, "0 minutes: must be above 0"),
             ({"minutes": float("nan")}, "nan minutes"),
-            ({"workers": 0}, "0 workers: must be 1 to 256"),
+            ({"workers": 0}, "workers = 0: must be 1 to 256"),
             ({"seed": -1}, "seed -1: must be 0 or more"),
         ],
     )

@@ -17,7 +17,7 @@ MARGIN = 0.03
 """Of the range, below 0."""
 
 _STYLES: dict[str, dict[str, Any]] = {
-    "trials": {"marker": "o", "color": LIGHT.line, "markersize": 4.0, "zorder": 1},
+    "trials": {"marker": "o", "color": LIGHT.dim, "alpha": 0.45, "markersize": 4.0, "zorder": 1},
     "front": {"marker": "s", "color": LIGHT.neurons["lgmd1"], "markersize": 5.0, "zorder": 2},
     "preset": {"marker": "D", "color": LIGHT.neurons["lptc_l"], "markersize": 7.0, "zorder": 3},
     "best": {"marker": "^", "color": LIGHT.neurons["lptc_r"], "markersize": 7.0, "zorder": 4},
