@@ -153,8 +153,8 @@ class RobotStream:
 
     def close(self) -> None:
         """Stop reading."""
-        self._closing.set()
         self._link.stop()
+        self._closing.set()
         self._thread.join(_PATIENCE_S)
         with self._changed:
             self._ended = True
