@@ -191,7 +191,7 @@ CLAIMS = (
             "The LPTCs remove three of four avoidances of translating robots, but they answer to robots that "
             "come, too: contacts double, and so SR2 stays where it was. Other constants move the model along the "
             "same curve (trade-off.md): fewer AT, more CR. What it takes to leave that curve is another "
-            "mechanism, see B.2."
+            "mechanism, see B.2 of table1.md."
         ),
     ),
     TableClaim(

@@ -85,8 +85,7 @@ def _made_by(plan: TablePlan, groups: Groups, found: Document) -> Iterator[str]:
         f"{plan.seeds[0]} to {plan.seeds[-1]}, {plan.minutes:g} simulated minutes for each model, number of robots and "
         f"seed. Arena {', '.join(f'`{worlds[robots]}` with {robots} robots' for robots in sorted(worlds))}; "
         + ", ".join(f"preset `{name}` `{value}`" for name, value in found["presets"].items())
-        + ". Every job is a row of [table1.csv](table1.csv), every contact and avoidance one of "
-        "[table1-events.csv](table1-events.csv)."
+        + ". Every job is a row of `table1.csv`, every contact and avoidance one of `table1-events.csv`."
     )
     yield ""
     yield (
