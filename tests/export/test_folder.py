@@ -46,7 +46,7 @@ def folders(tmp_path_factory, compiler):
             width, height = SIZES.get(name, (99, 72))
             for file, text in c_folder(SETTINGS[name], name, width, height, "lobula export c").items():
                 (made[name] / file).write_text(text, encoding="utf-8")
-            compile_with(compiler, made[name], "-O2", "-o", "robot")
+            compile_with(compiler, made[name], "-O1", "-o", "robot")
         return made[name]
 
     return folder
@@ -83,7 +83,8 @@ def test_the_readme_tells_what_was_made():
         "80 x 60",
         "preset published",
         "lobula export c --size 80x60 --out DIR",
-        "scale=80:60",
+        "scale=80:60:",
+        "--set width=80 --set height=60",
         lobula.__version__,
     ):
         assert word in text
