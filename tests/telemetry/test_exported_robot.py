@@ -68,6 +68,6 @@ def test_it_says_what_the_laptop_computes(tmp_path):
     assert decoder.damaged == 0
     laptop = lobula.Network(params, storage="compact").run(images, np.arange(len(images)) / 30)
     for number, name in enumerate(("lgmd1", "lgmd2", "lptc_r", "lptc_l")):
-        np.testing.assert_allclose([told.potentials[number] for told in readings], laptop[name], atol=2e-3)
+        np.testing.assert_allclose([told.potentials[number] for told in readings], laptop[name], atol=1e-4)
     assert [told.collision for told in readings] == laptop["collision"].tolist()
     assert [told.state for told in readings] == laptop["state"].tolist()
