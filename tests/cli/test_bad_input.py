@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-import subprocess
+import sys
 
 import av
 import numpy as np
@@ -164,12 +163,13 @@ def test_a_full_disk_under_standard_output(spawn, clip):
     assert err.count("\n") == 1
 
 
-def test_a_pipe_that_holds_nothing(spawn):
-    process = spawn("run", "-", "--json", stdin=subprocess.DEVNULL)
-    out, err = process.communicate(timeout=30)
-    assert process.returncode == 2
-    assert err.startswith("lobula: -: not a stream that FFmpeg recognises")
-    assert json.loads(out)["status"] == "refused"
+def test_a_pipe_that_holds_nothing(call, monkeypatch):
+    with open("/dev/null") as nothing:
+        monkeypatch.setattr(sys, "stdin", nothing)
+        done = call("run", "-", "--json")
+    assert done.code == 2
+    assert done.err.startswith("lobula: -: not a stream that FFmpeg recognises")
+    assert [record["status"] for record in done.records] == ["refused"]
 
 
 def test_a_pattern_without_quotes(call):

@@ -3,22 +3,33 @@
 from __future__ import annotations
 
 import json
+import os
 import random
+import shutil
 import signal
 import socket
 import subprocess
+import sys
+import threading
 import time
 
 import av
 import numpy as np
 import pytest
 
+from lobula.frames import reconnect
 from lobula.report.trace_file import read_trace
 
 from ..frames.clips import moving_bar
 from ..frames.web_camera import WebCamera
 
 BARS = moving_bar(40, 128, 96)
+
+
+@pytest.fixture(autouse=True)
+def short_waits(monkeypatch):
+    """Before a camera is tried again; in this process."""
+    monkeypatch.setattr(reconnect, "FIRST_WAIT_S", 0.05)
 
 
 class Act:
@@ -56,7 +67,7 @@ def test_cut_off_and_back_as_records(call):
     assert back["attempt"] == 3  # refused twice
     assert [r["attempt"] for r in events if r["phase"] == "retry"] == [1, 2]
     assert (summary["status"], summary["frames"], summary["lost"], summary["collisions"]) == ("ok", 40, 1, 0)
-    assert summary["away_s"] >= 0.7  # the first two waits
+    assert summary["away_s"] >= 0.3  # three waits, each twice the one before
     assert 0 < summary["latency_ms"] <= summary["latency_ms_worst"]
     trace = read_trace("t.csv")
     assert (np.diff(trace["frame"]) > 0).all()
@@ -86,7 +97,7 @@ def test_never_reconnecting(call):
 
 def test_patience_that_ends(call):
     with acted(10, lambda camera: camera.unplug()) as camera:
-        done = call("run", camera.address, "--json", "--reconnect", "0.5")
+        done = call("run", camera.address, "--json", "--reconnect", "0.2")
     assert (done.code, done.records[-1]["status"], done.records[-1]["lost"]) == (3, "source_failed", 1)
     assert "; given up after " in done.err
 
@@ -94,11 +105,12 @@ def test_patience_that_ends(call):
 def test_a_frozen_camera_is_stale_and_no_collision(call):
     def freeze(camera):
         camera.mode = "freeze"
+        threading.Timer(1.7, camera.unplug).start()
 
     with acted(10, freeze) as camera:
-        done = call("run", camera.address, "--json", "--end", "2.5")
+        done = call("run", camera.address, "--json", "--reconnect", "never")
     assert ("state", "stale", "start") in kinds(done.records[1:-1])
-    assert (done.code, done.records[-1]["collisions"], done.records[-1]["lost"]) == (0, 0, 0)
+    assert (done.code, done.records[-1]["collisions"], done.records[-1]["lost"]) == (3, 0, 0)
 
 
 def test_a_silent_camera_is_stale_then_lost(call):
@@ -106,7 +118,7 @@ def test_a_silent_camera_is_stale_then_lost(call):
         camera.mode = "silent"
 
     with acted(10, hush) as camera:
-        done = call("run", camera.address, "--json", "--timeout", "1.5", "--reconnect", "0.1")
+        done = call("run", camera.address, "--json", "--timeout", "1.6", "--reconnect", "0.1")
     around = kinds(done.records[1:-1])
     assert around.index(("state", "stale", "start")) < around.index(("source", None, "lost"))
     assert done.code == 3
@@ -141,16 +153,24 @@ def test_another_size_without_the_region_ends_it_in_one_line(call):
     assert "roi = (10, 10, 110, 80): must be (x, y, width, height) inside the 96 x 64 px" in done.err
 
 
-@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
-def test_a_signal_while_it_reconnects(spawn, tmp_path, number, code):
+def test_a_full_disk_stops_neither_a_live_run_nor_its_other_outputs(call, tmp_path):
+    (tmp_path / "full.csv").symlink_to("/dev/full")
+    with WebCamera(lambda n: BARS[n % 40], rate_hz=50) as camera:
+        done = call("run", camera.address, "--json", "--trace", "full.csv", "--record", "r.mp4", "--max-frames", "45")
+    assert (done.code, done.records[-1]["status"], done.records[-1]["frames"]) == (3, "output_failed", 45)
+    assert done.err == "lobula: cannot write full.csv: the disk is full\n"
+    assert len(times_of(tmp_path / "r.mp4")) == 45
+
+
+def test_a_signal_while_it_reconnects(spawn, tmp_path):
     with acted(15, lambda camera: camera.unplug()) as camera:
         process = spawn("run", camera.address, "--json", "--trace", "t.npz", "--record", "r.mp4")
         for line in process.stdout:
             if json.loads(line).get("phase") == "retry":
                 break
-        process.send_signal(number)
+        process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=30)
-    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n")
+    assert (process.returncode, err) == (130, "lobula: interrupted (SIGINT)\n")
     summary = json.loads(out.splitlines()[-1])
     assert (summary["status"], summary["lost"]) == ("interrupted", 1)
     assert summary["away_s"] > 0
@@ -159,16 +179,16 @@ def test_a_signal_while_it_reconnects(spawn, tmp_path, number, code):
         assert sum(1 for _ in video.decode(video=0)) == summary["frames"]
 
 
-@pytest.mark.parametrize("scheme", ["http", "rtsp"])
-def test_a_signal_while_nobody_answers(spawn, scheme):
+@pytest.mark.parametrize(("scheme", "number", "code"), [("http", signal.SIGTERM, 143), ("rtsp", signal.SIGINT, 130)])
+def test_a_signal_while_nobody_answers(spawn, scheme, number, code):
     with socket.create_server(("127.0.0.1", 0)) as listener:
         process = spawn("run", f"{scheme}://127.0.0.1:{listener.getsockname()[1]}/x", "--json")
         link, _ = listener.accept()
         with link:
             link.recv(1)  # it has asked, and now waits for ten seconds
-            process.terminate()
+            process.send_signal(number)
             out, err = process.communicate(timeout=30)
-    assert (process.returncode, err) == (143, "lobula: interrupted (SIGTERM)\n")
+    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n")
     assert json.loads(out)["status"] == "interrupted"
 
 
@@ -177,33 +197,54 @@ def times_of(path):
         return [frame.time for frame in video.decode(video=0)]
 
 
-@pytest.mark.parametrize(("after", "seed"), [("state", 0), ("collision", 1), ("collision", 2)])
-def test_killed_at_a_random_moment_everything_reads_but_for_the_last_second(spawn, tmp_path, movie, after, seed):
+def left_behind(folder, to):
+    """Copy what a run has written so far; rows first, so that pictures are not the older ones."""
+    for path in sorted(folder.rglob("*.*"), key=lambda path: path.suffix != ".csv"):
+        (to / path.relative_to(folder)).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(path, to / path.relative_to(folder))
+    return to
+
+
+def lost_s(rows, video):
+    """How much sooner than the rows of its trace a video ends."""
+    return rows["time_s"][-1] - rows["time_s"][0] - times_of(video)[-1]
+
+
+def test_killed_at_any_moment_everything_reads_but_for_the_last_second(spawn, tmp_path, movie):
+    """What lies there at a random moment is what SIGKILL would leave; the last moment is that of a real one."""
     images = np.ascontiguousarray(movie.images[45:, :, :98])  # an even width; the alarm comes after about a second
+    chance, run, moments = random.Random(0), tmp_path / "run", []
+    awaited = [("collision", "start"), ("state", "end")]
+    run.mkdir()
     with WebCamera(lambda n: images[n % len(images)], rate_hz=30) as camera:
-        process = spawn("run", camera.address, "--json", "--trace", "t.csv", "--annotate", "a.mp4", "--record", "r.mp4",
-                        "--keep", "clips", "--keep-before", "1", "--report", "report")  # fmt: skip
+        process = spawn("run", camera.address, "--json", "--trace", "run/t.csv", "--annotate", "run/a.mp4",
+                        "--record", "run/r.mp4", "--keep", "run/clips", "--keep-before", "1",
+                        "--report", "run/report")  # fmt: skip
         for line in process.stdout:
             record = json.loads(line)
-            if (record["type"], record.get("phase")) in ((after, "end"), ("collision", "start")):
+            if (record["type"], record.get("phase")) == awaited[-1]:
+                awaited.pop()
+                for _ in range(2):
+                    time.sleep(chance.uniform(0.3, 0.6))
+                    moments.append(left_behind(run, tmp_path / f"moment {len(moments)}"))
+            if not awaited:
                 break
-        time.sleep(random.Random(seed).uniform(0.0, 1.2))
+        time.sleep(chance.uniform(0.0, 0.5))
         process.kill()
         process.communicate(timeout=30)
-    rows = read_trace(tmp_path / "t.csv")
-    assert len(rows) > 5
-    assert abs(len(read_trace(tmp_path / "report" / "trace.csv")) - len(rows)) <= 1
-    for name in ("a.part.mp4", "r.part.mp4"):
-        times_s = times_of(tmp_path / name)
+    for folder in (*moments[1:], run):  # in the first there may not be half a second yet
+        rows = read_trace(folder / "t.csv")
+        assert len(rows) > 1
+        assert len(read_trace(folder / "report" / "trace.csv")) >= len(rows) - 1
         # half a second, and the picture whose coming ends it
-        lost_s = rows["time_s"][-1] - rows["time_s"][0] - times_s[-1]
-        assert lost_s <= 0.5 + 2 * np.diff(rows["time_s"]).max(), name
-    if after == "collision":
-        (clip,) = (tmp_path / "clips").glob("*.part.mp4")
-        times_s, kept = times_of(clip), read_trace(clip.with_name(clip.name.replace(".part.mp4", ".csv")))
-        assert kept["collision"].any()
-        lost_s = kept["time_s"][-1] - kept["time_s"][0] - times_s[-1]
-        assert lost_s <= 0.5 + 2 * np.diff(rows["time_s"]).max()
+        most_s = 0.5 + 2 * np.diff(rows["time_s"]).max()
+        for name in ("a.part.mp4", "r.part.mp4"):
+            assert lost_s(rows, folder / name) <= most_s, (folder.name, name)
+        for clip in folder.glob("clips/*.part.mp4"):
+            kept = read_trace(clip.with_name(clip.name.replace(".part.mp4", ".csv")))
+            assert kept["collision"].any()
+            assert lost_s(kept, clip) <= most_s, folder.name
+    assert any(list(folder.glob("clips/*.part.mp4")) for folder in (*moments, run))
 
 
 def test_clips_of_a_recording_and_the_pictures_as_they_were(call, clip, tmp_path):
@@ -234,9 +275,16 @@ def test_a_live_pipe(spawn, movie):
     assert (process.returncode, summary["status"], err) == (3, "source_failed", b"lobula: -: the stream ended\n")
     assert summary["latency_ms"] > 0
     assert summary["frames"] + summary["dropped"] == 40
-    refused = spawn(*raw, "--reconnect", "5", stdin=subprocess.PIPE, text=False)
-    _, err = refused.communicate(movie.images[:3].tobytes(), timeout=30)
-    assert (refused.returncode, err) == (2, b"lobula: --reconnect 5: - is a pipe: must be a camera or a stream\n")
+
+
+def test_a_pipe_cannot_be_opened_again(call, movie, monkeypatch):
+    reading, writing = os.pipe()
+    with open(reading) as pipe, open(writing, "wb", buffering=0) as feed:
+        monkeypatch.setattr(sys, "stdin", pipe)
+        feed.write(movie.images[0].tobytes())
+        feed.close()
+        done = call("run", "-", "--live", "--pixel-format", "gray8", "--input-size", "99x72", "--reconnect", "5")
+    assert (done.code, done.err) == (2, "lobula: --reconnect 5: - is a pipe: must be a camera or a stream\n")
 
 
 def test_word_to_a_service_manager(spawn, tmp_path):

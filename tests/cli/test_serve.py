@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import signal
 import socket
@@ -12,6 +13,7 @@ import urllib.error
 import urllib.request
 from typing import Any
 
+import av
 import numpy as np
 import pytest
 
@@ -22,6 +24,8 @@ from lobula.report.trace_file import read_trace
 pytest.importorskip("uvicorn", reason="the extra dashboard is not installed")
 
 from ..dashboard.stage import Watcher
+from ..frames.clips import moving_bar
+from ..frames.web_camera import WebCamera
 from ..hooks.listeners import free_port
 
 
@@ -49,6 +53,11 @@ class Served:
 @pytest.fixture
 def serve(spawn):
     return lambda *arguments, **how: Served(spawn("serve", *arguments, "--json", "--port", 0, **how))
+
+
+def size_of(jpeg: bytes) -> tuple[int, int]:
+    with av.open(io.BytesIO(jpeg)) as picture:
+        return picture.streams.video[0].width, picture.streams.video[0].height
 
 
 def rows_of(watcher: Watcher, count: int, version: int) -> np.ndarray:
@@ -182,6 +191,29 @@ class TestAPipe:
         assert [(r["type"], r.get("phase")) for r in got if r["type"] != "reading"] == kinds
 
 
+class TestACameraThatGoesAway:
+    def test_the_page_tells_and_goes_on_though_the_pictures_have_another_size(self, serve):
+        def image(number):
+            return now["bars"][number % 40]
+
+        now = {"bars": moving_bar(40, 128, 96)}
+        with WebCamera(image) as camera:
+            served = serve(camera.address)
+            with Watcher(served) as watcher:
+                before = watcher.until(lambda m: m.jpeg)
+                assert size_of(before.jpeg) == (128, 96)
+                camera.unplug(1)
+                watcher.until(lambda m: m.head["status"].get("state") == "stale")
+                now["bars"] = moving_bar(40, 192, 144)
+                after = watcher.until(lambda m: m.jpeg and size_of(m.jpeg) == (192, 144))
+                assert after.head["scene"]["time_s"] > before.head["scene"]["time_s"]
+                events = watcher.until(lambda m: "back" in [e["phase"] for e in m.head.get("events", ())])
+            told = [e["phase"] for e in events.head["events"] if e["type"] == "source"]
+            assert told[:3] == ["lost", "retry", "back"]
+            code, records, _ = served.stop()
+        assert (code, records[-1]["status"], records[-1]["lost"]) == (130, "interrupted", 1)
+
+
 class TestBadInput:
     @pytest.mark.parametrize(
         ("arguments", "says"),
@@ -243,17 +275,14 @@ class TestTheToken:
         assert (code, records) == (130, [])
         assert err.count("?token=") == 1
 
-    def test_it_is_taken_from_the_environment(self, serve, clip):
-        served = serve(clip, environment={"LOBULA_TOKEN": "correct horse battery"})
+    def test_it_is_taken_from_the_environment_and_another_name_may_be_allowed(self, serve, clip):
+        served = serve(clip, "--allow-host", "robot.example", environment={"LOBULA_TOKEN": "correct horse battery"})
         with pytest.raises(urllib.error.HTTPError, match="401"):
             served.get("app.js")
         assert b"<h1" in served.get("?token=correct%20horse%20battery")
-        assert served.stop()[0] == 130
-
-    def test_another_name_may_be_allowed(self, serve, clip):
-        served = serve(clip, "--allow-host", "robot.example")
+        bearer = {"Authorization": "Bearer correct horse battery"}
         for host, status in (("robot.example", 200), ("evil.example", 421)):
-            asked = urllib.request.Request(served.url, headers={"Host": host})
+            asked = urllib.request.Request(served.url, headers={"Host": host, **bearer})
             try:
                 with urllib.request.urlopen(asked, timeout=20) as answer:
                     found = answer.status

@@ -61,20 +61,18 @@ def test_a_signal_while_it_waits_for_a_picture(waiting_run, tmp_path, number, co
         assert len(list(video)) == summary["frames"]
 
 
-@pytest.mark.parametrize(("number", "code"), SIGNALS)
-def test_a_signal_before_the_source_is_open(spawn, number, code):
+def test_a_signal_before_the_source_is_open(spawn):
     process = spawn("run", "-", "--json", stdin=subprocess.PIPE, text=False)
     process.stdin.write(b"x")
     process.stdin.flush()
     wait_until_read(process.stdin)  # now it waits for the second byte
-    process.send_signal(number)
+    process.send_signal(signal.SIGTERM)
     out, err = process.communicate(timeout=30)
-    assert (process.returncode, err) == (code, f"lobula: interrupted ({number.name})\n".encode())
+    assert (process.returncode, err) == (143, b"lobula: interrupted (SIGTERM)\n")
     assert json.loads(out)["status"] == "interrupted"
 
 
-@pytest.mark.parametrize(("number", "code"), SIGNALS)
-def test_a_signal_while_it_works(spawn, tmp_path, number, code):
+def test_a_signal_while_it_works(spawn, tmp_path):
     images = np.random.default_rng(0).integers(0, 255, (2000, 72, 99), np.uint8)
     (tmp_path / "raw").write_bytes(images.tobytes())
     with (tmp_path / "raw").open("rb") as raw:
@@ -83,9 +81,9 @@ def test_a_signal_while_it_works(spawn, tmp_path, number, code):
         for line in process.stdout:
             if json.loads(line).get("phase") == "end":
                 break
-        process.send_signal(number)
+        process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
-    assert process.returncode == code, err
+    assert process.returncode == 130, err
     summary = json.loads(out.splitlines()[-1])
     assert summary["status"] == "interrupted"
     assert summary["frames"] < 2000

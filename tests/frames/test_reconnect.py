@@ -15,6 +15,7 @@ from lobula.frames.geometry import View
 from lobula.frames.reconnect import Reconnecting
 from lobula.frames.selection import Picture, Selection
 
+from .clips import as_frame
 from .scripted_camera import ScriptedCamera, picture, wait_until
 
 GONE = FrameSourceError("camera: unplugged", on_the_way=True)
@@ -236,6 +237,20 @@ def test_pictures_of_another_size_begin_anew():
         assert [(n.phase, n.facts) for n in news] == [("resized", {"width": 198, "height": 144})]
         np.testing.assert_array_equal(frame.image, np.full((72, 99), 1))
         assert frames.picture().shape == (144, 198, 3)
+
+
+def test_pictures_of_another_format_and_range_are_the_same_pictures():
+    """As a camera gives them that was plugged in again and now sends JPEGs."""
+    flat = np.full((72, 99), 126, np.uint8)
+    limited = as_frame(flat, "yuv422p")  # 126 in 16 to 235 is 128.08 in 0 to 255
+    with stream(Socket(ScriptedCamera())) as (camera, frames):
+        camera.give(picture(0))
+        polled(frames)
+        for number, (data, grey) in enumerate([(limited, 128.08), (as_frame(flat, "yuvj420p"), 126)], 1):
+            camera.give(Picture(data, number / 30, number))
+            frame, news = polled(frames)
+            assert (news, frames.breaks) == ([], 0)
+            np.testing.assert_allclose(frame.image, grey, atol=0.01)
 
 
 def test_a_region_that_has_no_place_in_them_is_refused_in_one_line():
