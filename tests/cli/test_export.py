@@ -80,6 +80,9 @@ def test_force_brings_a_project_up_to_date_and_leaves_its_own_files(call, tmp_pa
     (folder / "main.c").write_text("int main(void) { return 0; }\n")
     (folder / "mine.c").write_text("\n")
     (folder / "lobula.h").write_text("damaged")
+    done = call("export", "c", "--out", "robot", "--size", "32x24", "--force")
+    assert done.code == 0
+    assert done.err.endswith(" of memory; main.c is as it was\n")
     done = call("export", "c", "--out", "robot", "--size", "64x48", "--force", "--json")
     assert done.code == 0
     assert not {"main.c", "mine.c"} & set(done.document["files"])

@@ -39,7 +39,7 @@ def c(
 
     No heap, no operating system; the size of the picture and all settings are compiled in.
     """
-    from ..export import EXAMPLE, c_folder, require_ram, state_bytes
+    from ..export import EXAMPLE, c_folder, in_kib, require_ram, state_bytes
     from ..params import settings_hash
     from .print_json import print_json
     from .progress import say
@@ -55,7 +55,8 @@ def c(
     if ram is not None:
         require_ram(chosen.params, width, height, ram)
     _check_out(out, force)
-    if (out / EXAMPLE).exists():
+    kept = (out / EXAMPLE).exists()
+    if kept:
         del files[EXAMPLE]
     _write(out, files)
     needed = state_bytes(chosen.params, width, height)
@@ -66,8 +67,8 @@ def c(
         })  # fmt: skip
     else:
         say(
-            f"{out}: {len(files)} files, preset {chosen.preset}, {width} x {height} px, {needed / 1024:.1f} KiB of "
-            f"memory; start with {out / 'README.md'}"
+            f"{out}: {len(files)} files, preset {chosen.preset}, {width} x {height} px, {in_kib(needed)} of memory; "
+            + (f"{EXAMPLE} is as it was" if kept else f"start with {out / 'README.md'}")
         )
 
 

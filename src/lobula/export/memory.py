@@ -58,8 +58,8 @@ def require_ram(params: NetworkParams, width: int, height: int, ram_kib: float) 
         rest = f"the largest of this shape that fits is {fits[0]} x {fits[1]}"
     else:
         least = state_bytes(params, MIN_WIDTH, MIN_HEIGHT)
-        rest = f"none of this shape fits; the least there is, {MIN_WIDTH} x {MIN_HEIGHT}, needs {_kib(least)}"
-    raise ParameterError(f"--ram {ram_kib:g}: {width} x {height} px need {_kib(needed)} with these settings: {rest}")
+        rest = f"none of this shape fits; the least there is, {MIN_WIDTH} x {MIN_HEIGHT}, needs {in_kib(least)}"
+    raise ParameterError(f"--ram {ram_kib:g}: {width} x {height} px need {in_kib(needed)} with these settings: {rest}")
 
 
 def largest_size(params: NetworkParams, width: int, height: int, ram_kib: float) -> tuple[int, int] | None:
@@ -70,6 +70,6 @@ def largest_size(params: NetworkParams, width: int, height: int, ram_kib: float)
     return sizes[fitting - 1] if fitting else None
 
 
-def _kib(size: int) -> str:
-    """Round up: what is said to be enough is enough."""
+def in_kib(size: int) -> str:
+    """Return ``size`` bytes in words, rounded up: what is said to be enough is enough."""
     return f"{math.ceil(size / 102.4) / 10:.1f} KiB"
