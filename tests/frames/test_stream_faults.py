@@ -7,6 +7,7 @@ import pytest
 
 import lobula.frames
 from lobula.errors import FrameSourceError, ParameterError
+from lobula.frames import reconnect
 
 from .clips import moving_bar
 from .rtsp_camera import RtspCamera
@@ -14,6 +15,11 @@ from .web_camera import WebCamera
 
 BARS = moving_bar(40, 128, 96)
 KINDS = pytest.mark.parametrize("kind", [WebCamera, RtspCamera])
+
+
+@pytest.fixture(autouse=True)
+def short_waits(monkeypatch):
+    monkeypatch.setattr(reconnect, "FIRST_WAIT_S", 0.05)
 
 
 def bars(number):
@@ -110,7 +116,7 @@ def test_a_stream_that_always_ends_at_once_is_tried_with_waits_and_never_hangs()
         with lobula.frames.open(camera.address, timeout_s=5, reconnect_s=60) as frames:
             _, news = until(frames, lambda _, n: len(n) >= 6)
             assert phases(news)[:6] == ["lost", "back"] * 3
-            assert frames._link._wait_s >= 1.0
+            assert frames._link._wait_s >= 4 * reconnect.FIRST_WAIT_S
 
 
 def test_given_up_in_one_line():
