@@ -42,7 +42,7 @@ export function makePicture() {
     context.putImageData(image, 0, 0);
     const [left, top, width, height] = box.map((side) => `${100 * side}%`);
     Object.assign(map.style, { left, top, width, height });
-    scale.textContent = `full colour ±${about.peak.toPrecision(2)}`;
+    scale.textContent = about.peak > 1e-6 ? `full colour ±${about.peak.toPrecision(2)}` : "zero everywhere";
   }
 
   return {
