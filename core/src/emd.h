@@ -5,6 +5,7 @@
 #ifndef LOBULA_EMD_H
 #define LOBULA_EMD_H
 
+#include "known.h"
 #include "scratch.h"
 #include "storage.h"
 
@@ -12,8 +13,8 @@
 INLINE vf pull(const float *adapted, vf side, const int *span, const vf *share, int spans) {
     vf sum = vf_all(0.0f);
     UNROLL for (int i = 0; i < spans; i++) {
-        vf right = vf_max(vf_xor(vf_load(adapted + span[i]), side), vf_all(0.0f));
-        vf left = vf_max(vf_xor(vf_load(adapted - span[i]), side), vf_all(0.0f));
+        vf right = vf_above_zero(vf_xor(vf_load(adapted + span[i]), side));
+        vf left = vf_above_zero(vf_xor(vf_load(adapted - span[i]), side));
         sum += share[i] * (right - left);
     }
     return sum;
@@ -31,11 +32,14 @@ INLINE vd emd_row_as(int n, const float *adapted, stored *restrict kept, float *
         vf before = stored_load(kept + x), now = vf_load(adapted + x), side = vf_sign(before);
         stored_store(kept + x, now);
         if (lgmds) {
-            vf_store(on + x, vf_max(now, zero));
-            vf_store(off + x, vf_max(zero - now, zero));
-            vf_store(on_before + x, vf_max(before, zero));
-            vf_store(off_before + x, vf_max(zero - before, zero));
+            vf_store(on + x, vf_above_zero(now));
+            vf_store(off + x, vf_above_zero(zero - now));
+            vf_store(on_before + x, vf_above_zero(before));
+            vf_store(off_before + x, vf_above_zero(zero - before));
         }
+#if LANES == 1
+        if (before == 0.0f) continue; /* as is most of a still scene */
+#endif
         vd_add(&sum, vf_xor(before, side) * pull(adapted + x, side, span, share, spans));
     }
     return sum;
@@ -44,6 +48,7 @@ INLINE vd emd_row_as(int n, const float *adapted, stored *restrict kept, float *
 static vd emd_row(int n, const float *adapted, stored *kept, float *const *excitation, const step_plan *p, int lgmds,
                   vd sum) {
     static const int usual[4] = {1, 2, 3, 4};
+    lgmds = KNOWN(lgmds, LOBULA_READS_LAMINA);
     if (p->spans != 4 || memcmp(p->span, usual, sizeof usual) != 0)
         return emd_row_as(n, adapted, kept, excitation, p->span, p->span_share, p->spans, lgmds, sum);
     return lgmds ? emd_row_as(n, adapted, kept, excitation, usual, p->span_share, 4, 1, sum)
@@ -61,6 +66,7 @@ static vd emd_row_apart(int n, const float *now, const float *before, const step
 
 static float part_of(float kept, float sign) { return sign * kept > 0.0f ? sign * kept : 0.0f; }
 
+#if defined(LOBULA_LAPTOP)
 /* The map itself, only for a tap: each pair booked at its left cell. Both rows hold the channel times `sign`. */
 static void emd_map(int width, const float *now, const float *before, float sign, const step_plan *p, float *map) {
     for (int i = 0; i < p->spans; i++)
@@ -68,5 +74,6 @@ static void emd_map(int width, const float *now, const float *before, float sign
             map[x] += p->span_share[i] * (part_of(before[x], sign) * part_of(now[far], sign) -
                                           part_of(now[x], sign) * part_of(before[far], sign));
 }
+#endif
 
 #endif

@@ -6,7 +6,7 @@
 int find_flash(const kernels *k, extent e, picture image, picture previous, const change_summary *about,
                const lobula_flash_params *p, change_of_light *light) {
     if (p->enabled == 0 || real_abs(about->mean) < p->min_change_grey) return 0;
-    int64_t brighter, darker;
+    int32_t brighter, darker;
     k->coverage(e, image, previous, &brighter, &darker);
     real together = (real)(brighter > darker ? brighter : darker) / ((real)e.width * (real)e.height);
     if (together < p->min_coverage) return 0;

@@ -5,44 +5,19 @@
 #ifndef LOBULA_GROUPING_H
 #define LOBULA_GROUPING_H
 
-#include "lateral_inhibition.h"
+#include "scratch.h"
 #include "storage.h"
 
 /* The summations of both LGMDs lie side by side, vector by vector. */
 enum { SUMS = 2 };
 
-/* One channel: what excites it and what inhibits it. */
-typedef struct {
-    const float *excitation, *inhibition;
-} channel_rows;
-
-INLINE vf channel_at(const channel_rows *c, int x, vf bias) {
-    return compete(vf_load(c->excitation + x), vf_load(c->inhibition + x), bias);
+/* As it is listed. */
+INLINE vf in_list(vf product, vf scale) {
+    if (STORED_NARROW) product *= scale;
+    return product;
 }
 
-/* The summation S of one LGMD from its channels; `out` points at its place among the two. */
-INLINE void sum_row_as(int n, const lgmd_plan *q, const channel_rows *c, float *restrict out, int kind) {
-    vf bias_on = vf_all(q->bias[ON]), bias_off = vf_all(q->bias[OFF]), product_gain = vf_all(q->product_gain);
-    vf gain_on = vf_all(q->gain[ON]), gain_off = vf_all(q->gain[OFF]);
-    channel_rows on = c[ON], off = c[OFF];
-    for (int x = 0; x < n; x += LANES) {
-        vf sum = vf_all(0.0f), a = sum, b = sum;
-        if (kind != SUM_OFF) sum += gain_on * (a = channel_at(&on, x, bias_on));
-        if (kind != SUM_ON) sum += gain_off * (b = channel_at(&off, x, bias_off));
-        if (kind == SUM_PRODUCT) sum += product_gain * (a * b);
-        vf_store(out + x * SUMS, sum);
-    }
-}
-
-static void sum_row(int n, const lgmd_plan *q, const channel_rows *c, float *out) {
-    switch (q->kind) {
-    case SUM_ON: sum_row_as(n, q, c, out, SUM_ON); break;
-    case SUM_OFF: sum_row_as(n, q, c, out, SUM_OFF); break;
-    case SUM_BOTH: sum_row_as(n, q, c, out, SUM_BOTH); break;
-    case SUM_PRODUCT: sum_row_as(n, q, c, out, SUM_PRODUCT); break;
-    default: break;
-    }
-}
+#if defined(LOBULA_LAPTOP)
 
 static void column_row(int n, const float *above, const float *middle, const float *below, float *restrict column) {
     for (int x = 0; x < n; x += LANES)
@@ -55,12 +30,6 @@ typedef struct {
     int spacing;
     vf least, scale;
 } grouping_rows;
-
-/* As it is listed. */
-INLINE vf in_list(vf product, vf scale) {
-    if (STORED_NARROW) product *= scale;
-    return product;
-}
 
 /* S times the sum of its neighbourhood, nine times too large, for the cells `inside` the picture. */
 INLINE grouped group_vector(const grouping_rows *r, int x, vm inside, int partial, grouped g) {
@@ -94,6 +63,8 @@ static void group_row_of_both(int width, const grouping_rows *rows, grouped *bot
     both[0] = whole < width ? group_vector(&r, whole, inside, 1, g) : g;
     both[1] = whole < width ? group_vector(&q, whole, inside, 1, h) : h;
 }
+
+#endif
 
 INLINE vd total_row(int width, const float *sum, vd total) {
     int whole = width / LANES * LANES;

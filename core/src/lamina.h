@@ -47,10 +47,19 @@ typedef struct {
 /* model.lamina.dog.difference_of_gaussians, its positive and its negative part; `below` is -dead_zone, or less than
  * any number but zero where there is none, since e = 0 belongs to ON */
 INLINE on_off edges(vf e, vf i, vf dead_zone, vf below) {
+#if LANES == 1
+    on_off none = {0.0f, 0.0f};
+    if (e >= dead_zone)
+        none.on = i >= 0.0f ? fabsf(e - i) : 0.0f;
+    else if (below >= e)
+        none.off = i < 0.0f ? fabsf(e - i) : 0.0f;
+    return none;
+#else
     vf size = vf_abs(e - i), zero = vf_all(0.0f);
     on_off x = {vf_keep(vm_and(vf_ge(e, dead_zone), vf_ge(i, zero)), size),
                 vf_keep(vm_and(vf_ge(below, e), vf_gt(zero, i)), size)};
     return x;
+#endif
 }
 
 INLINE vf below_zone(float dead_zone) { return vf_all(dead_zone > FLT_MIN ? -dead_zone : -FLT_MIN); }
@@ -82,7 +91,7 @@ INLINE two_steps remember(vf signal, vf residual, stored *kept) {
 }
 
 /* model.lamina.fdsr of one channel */
-INLINE vf adapt(two_steps x, vf share) { return vf_max(share * (x.now - x.before), vf_all(0.0f)); }
+INLINE vf adapt(two_steps x, vf share) { return vf_above_zero(share * (x.now - x.before)); }
 
 INLINE void lamina_vector(int x, on_off signal, vf residual, vf share, const lamina_rows *r, int fdsr) {
     two_steps on = remember(signal.on, residual, r->kept[0] + x), off = remember(signal.off, residual, r->kept[1] + x);

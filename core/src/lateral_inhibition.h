@@ -60,4 +60,37 @@ INLINE vf compete(vf excitation, vf inhibition, vf bias) {
     return vf_max(excitation - bias * inhibition, vf_all(0.0f));
 }
 
+/* model/medulla: the summation S. One channel: what excites it and what inhibits it. */
+typedef struct {
+    const float *excitation, *inhibition;
+} channel_rows;
+
+INLINE vf channel_at(const channel_rows *c, int x, vf bias) {
+    return compete(vf_load(c->excitation + x), vf_load(c->inhibition + x), bias);
+}
+
+/* The summation S of one LGMD from its channels; `out` points at its place among the two. */
+INLINE void sum_row_as(int n, const lgmd_plan *q, const channel_rows *c, float *restrict out, int kind) {
+    vf bias_on = vf_all(q->bias[ON]), bias_off = vf_all(q->bias[OFF]), product_gain = vf_all(q->product_gain);
+    vf gain_on = vf_all(q->gain[ON]), gain_off = vf_all(q->gain[OFF]);
+    channel_rows on = c[ON], off = c[OFF];
+    for (int x = 0; x < n; x += LANES) {
+        vf sum = vf_all(0.0f), a = sum, b = sum;
+        if (kind != SUM_OFF) sum += gain_on * (a = channel_at(&on, x, bias_on));
+        if (kind != SUM_ON) sum += gain_off * (b = channel_at(&off, x, bias_off));
+        if (kind == SUM_PRODUCT) sum += product_gain * (a * b);
+        vf_store(out + x * SUMS, sum);
+    }
+}
+
+static void sum_row(int n, const lgmd_plan *q, const channel_rows *c, float *out) {
+    switch (q->kind) {
+    case SUM_ON: sum_row_as(n, q, c, out, SUM_ON); break;
+    case SUM_OFF: sum_row_as(n, q, c, out, SUM_OFF); break;
+    case SUM_BOTH: sum_row_as(n, q, c, out, SUM_BOTH); break;
+    case SUM_PRODUCT: sum_row_as(n, q, c, out, SUM_PRODUCT); break;
+    default: break;
+    }
+}
+
 #endif

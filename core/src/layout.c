@@ -62,7 +62,12 @@ int layout_init(layout *l, const lobula_params *p, int width, int height, int st
     /* A vector may start at the last margin pixel and run on. */
     l->long_row = l->margin + l->stride + l->margin + ROW_FLOATS;
     l->ring = power_of_two(2 * larger(l->spacing[0], l->spacing[1]) + 2);
+#if defined(LOBULA_LAPTOP)
     l->excited = power_of_two(larger(l->spacing[0], l->spacing[1]) + 2);
+    l->excited_before = 2;
+#else
+    l->excited = l->excited_before = l->ring; /* inhibition is added up from them: sparse.h */
+#endif
 
     /* Steps are at least two thirds of a tick apart (clock.c), and older spikes leave as new ones come. */
     l->window_capacity = -(int)real_floor(-p->decision.window_ms / ((real)0.6 * p->clock.period_ms)) + 2;

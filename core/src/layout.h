@@ -43,7 +43,7 @@ typedef struct {
     int spacing[2];                 /* neighbour_px of each LGMD */
     int reads[2];                   /* source of each LGMD */
     int ring;                       /* rows that inhibition and grouping keep, a power of two */
-    int excited;                    /* rows of what excites the LGMDs that are kept, a power of two */
+    int excited, excited_before;    /* rows of what excites the LGMDs that are kept, powers of two */
     int window_capacity;
     size_t record;          /* cells of one row of every plane but the luma */
     size_t cell_bytes, pixel_bytes; /* of a plane's cell, and of the luma's */

@@ -22,4 +22,13 @@ typedef lobula_real real;
 #define REAL_BELOW_ONE (1.0f - 0x1p-24f)
 #endif
 
+/* A sum of whole numbers; a robot's conversion of 64 bits would take a kilobyte. */
+static inline real real_of(int64_t sum) {
+#if defined(LOBULA_LAPTOP)
+    return (real)sum;
+#else
+    return (real)(int32_t)(sum >> 16) * 65536 + (real)(uint16_t)sum;
+#endif
+}
+
 #endif

@@ -43,8 +43,8 @@ INLINE void retina_vector(int x, vf now, const retina_constants *c, const retina
     luma_store(r->luma + x, now);
     vf_store(r->change + x, change);
     if (what & EXCITES) {
-        excite(x, vf_max(change, zero), c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
-        excite(x, vf_max(zero - change, zero), c->residual, r->kept[OFF], r->excitation[E_OFF],
+        excite(x, vf_above_zero(change), c->residual, r->kept[ON], r->excitation[E_ON], r->excitation[E_ON_BEFORE]);
+        excite(x, vf_above_zero(zero - change), c->residual, r->kept[OFF], r->excitation[E_OFF],
                r->excitation[E_OFF_BEFORE]);
     }
 }
@@ -143,7 +143,7 @@ static change_summary summarise_bytes(extent e, picture image, picture previous)
         magnitude += row_magnitude;
     }
     real pixels = (real)e.width * (real)e.height;
-    change_summary s = {(real)sum / pixels, (real)magnitude / pixels};
+    change_summary s = {real_of(sum) / pixels, real_of(magnitude) / pixels};
     return s;
 }
 
@@ -187,7 +187,7 @@ INLINE void count_change(row_count *c, vf change) {
 }
 
 /* The rest of model.retina.change_statistics; asked for only where the mean change could be a flash. */
-static void coverage(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker) {
+static void coverage(extent e, picture image, picture previous, int32_t *brighter, int32_t *darker) {
     vd brighter_sum = {0}, darker_sum = {0};
     int whole = e.width / LANES * LANES, now_type = kind_of(&image), before_type = kind_of(&previous);
     for (int y = 0; y < e.height; y++) {
@@ -200,8 +200,8 @@ static void coverage(extent e, picture image, picture previous, int64_t *brighte
         vd_add(&brighter_sum, c.brighter);
         vd_add(&darker_sum, c.darker);
     }
-    *brighter = (int64_t)vd_total(&brighter_sum);
-    *darker = (int64_t)vd_total(&darker_sum);
+    *brighter = (int32_t)vd_total(&brighter_sum);
+    *darker = (int32_t)vd_total(&darker_sum);
 }
 
 /* The sums behind the least squares of model.retina.find_flash, of bytes. */
@@ -221,7 +221,8 @@ static light_sums light_of_bytes(extent e, picture image, picture previous, real
             change_change += change * change;
         }
     }
-    light_sums s = {(real)count, (real)new_sum, (real)old_sum, (real)old_old, (real)new_old, (real)change_change};
+    light_sums s = {real_of(count), real_of(new_sum), real_of(old_sum), real_of(old_old), real_of(new_old),
+                    real_of(change_change)};
     return s;
 }
 

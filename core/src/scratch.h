@@ -36,10 +36,14 @@ typedef struct {
     ring adapted; /* ON less OFF; zero margins */
     ring apart[2], before[2]; /* where adaptation is off: both channels, and one step ago */
     ring excitation[SOURCES][E_ROWS]; /* what the LGMDs read, edges repeated outwards */
+#if defined(LOBULA_LAPTOP)
     ring weighed[MAX_SETS / 2]; /* two sets in each, see lateral_inhibition.h */
     float *inhibition[MAX_SETS]; /* one row of I of each set */
+#endif
     ring sums; /* of both LGMDs, see grouping.h */
+#if defined(LOBULA_LAPTOP)
     ring column[2]; /* three rows of the summation, added up */
+#endif
     stored *list[2]; /* vectors of grouped cells that may reach the threshold */
     grouped grouped[2];
     float limit[2]; /* what such a cell must reach, as far as is known */
@@ -115,12 +119,16 @@ static inline void scratch_layout(const layout *l, memory *m, scratch *s) {
     for (int source = 0; source < SOURCES; source++)
         for (int k = 0; k < E_ROWS; k++) {
             int read = l->reads[0] == source || l->reads[1] == source;
-            s->excitation[source][k] = take_long(m, l, !read ? 0 : k < E_ON_BEFORE ? l->excited : 2);
+            s->excitation[source][k] = take_long(m, l, !read ? 0 : k < E_ON_BEFORE ? l->excited : l->excited_before);
         }
+#if defined(LOBULA_LAPTOP)
     for (int k = 0; k < MAX_SETS / 2; k++) s->weighed[k] = take_ring(m, l->ring, 4 * l->stride, 0);
     for (int k = 0; k < MAX_SETS; k++) s->inhibition[k] = take(m, (size_t)l->stride);
+#endif
     s->sums = take_ring(m, l->ring, 2 * l->stride, 0);
+#if defined(LOBULA_LAPTOP)
     for (int j = 0; j < 2; j++) s->column[j] = take_long(m, l, 2);
+#endif
     m->used = (m->used + 7) / 8 * 8;
     for (int j = 0; j < 2; j++) s->list[j] = take_list(m, l); /* last: see robot/lobula.c */
 }

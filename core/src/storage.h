@@ -13,7 +13,8 @@
 
 typedef uint16_t half16;
 
-#if LANES == 1 && defined(__ARM_FP) && (__ARM_FP & 2) && defined(__GNUC__)
+#if LANES == 1 && defined(__GNUC__) && defined(__ARM_FP) && defined(__ARM_ARCH_PROFILE) && __ARM_ARCH_PROFILE == 'M'
+/* Every Cortex-M with a floating point unit converts, though not every compiler says so in __ARM_FP. */
 
 INLINE float float_of(half16 h) {
     float x = 0.0f;

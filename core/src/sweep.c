@@ -8,12 +8,18 @@
 #include "emd.h"
 #include "grouping.h"
 #include "isa.h"
+#include "known.h"
 #include "lamina.h"
-#include "lateral_inhibition.h"
 #include "retina.h"
 #include "scratch.h"
 #include "storage.h"
+
+#if defined(LOBULA_LAPTOP)
+#include "lateral_inhibition.h"
 #include "usual.h"
+#else
+#include "sparse.h"
+#endif
 
 #if defined(LOBULA_LAPTOP) && !defined(LOBULA_COMPACT_PLANES)
 #include "area_average.h"
@@ -64,70 +70,71 @@ static void retina_row(const constants *c, scratch *k, step_plan *p, int y) {
     stored_luma *luma = luma_row(l, c->planes, y);
     float *change = k->change.first + (size_t)((unsigned)y % k->change.rows) * (size_t)k->change.stride;
     retina_rows r = {luma, {NULL}, change, {NULL}, k->columns};
-    if (p->coarse && y % p->patch == 0) memset(k->columns, 0, (size_t)l->stride * sizeof(float));
-    if (c->lgmds_read_change) {
+    if (HAS_COARSE(p) && y % p->patch == 0) memset(k->columns, 0, (size_t)l->stride * sizeof(float));
+    if (READ_CHANGE(c)) {
         r.kept[ON] = state_row(l, c->planes, l->planes.change, y);
         r.kept[OFF] = r.kept[ON] + l->stride;
         for (int i = 0; i < E_ROWS; i++) r.excitation[i] = row_of(&k->excitation[CHANGE][i], y);
     }
-    if (p->coarse)
-        retina_row_coarse(l->width, p, image, &r, c->lgmds_read_change);
-    else if (c->lgmds_read_change)
+    if (HAS_COARSE(p))
+        retina_row_coarse(l->width, p, image, &r, READ_CHANGE(c));
+    else if (READ_CHANGE(c))
         retina_row_excites(l->width, p, image, &r);
     else
         retina_row_alone(l->width, p, image, &r);
     luma_keep(luma, image, l->width);
-    for (int i = 0; i < E_ROWS && c->lgmds_read_change; i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
-    if (p->coarse && y % p->patch == p->patch - 1) hear_patches(l->width, p, k->columns, p->patches);
+    for (int i = 0; i < E_ROWS && READ_CHANGE(c); i++) replicate_margins(r.excitation[i], l->width, c->reach[CHANGE]);
+    if (HAS_COARSE(p) && y % p->patch == p->patch - 1) hear_patches(l->width, p, k->columns, p->patches);
     copy_to_tap(p, LOBULA_TAP_CHANGE, l, y, change);
 }
 
 static void blur_row(const constants *c, scratch *k, int y) {
     const layout *l = c->l;
     float *rows[2 * MAX_RADIUS + 1], *e = row_of(&k->inner, y), *i = row_of(&k->outer, y);
-    window_of(&k->change, y, l->outer_radius, l->height, rows);
-    if (l->inner_radius == 2 && l->outer_radius == 4)
+    window_of(&k->change, y, DOG_OUTER(l), l->height, rows);
+    if (KNOWN(l->inner_radius == 2 && l->outer_radius == 4, 0))
         blur_down(rows, c->n, c->inner, 2, c->outer, 4, e, i);
     else
-        blur_down(rows, c->n, c->inner, l->inner_radius, c->outer, l->outer_radius, e, i);
-    replicate_margins(e, l->width, l->inner_radius);
-    replicate_margins(i, l->width, l->outer_radius);
+        blur_down(rows, c->n, c->inner, DOG_INNER(l), c->outer, DOG_OUTER(l), e, i);
+    replicate_margins(e, l->width, DOG_INNER(l));
+    replicate_margins(i, l->width, DOG_OUTER(l));
 }
 
 static void lamina_row(const constants *c, scratch *k, const step_plan *p, int y) {
     const layout *l = c->l;
     const float *e = row_of(&k->inner, y), *i = row_of(&k->outer, y), *change = k->change.first;
     lamina_rows rows = {.kept = {state_row(l, c->planes, l->planes.on, y), state_row(l, c->planes, l->planes.off, y)}};
-    if (c->fdsr)
+    if (HAS_FDSR(c))
         rows.adapted = row_of(&k->adapted, y);
-    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+    for (int ch = 0; ch < 2 && !HAS_FDSR(c); ch++) {
         rows.apart[ch] = row_of(&k->apart[ch], y);
         rows.before[ch] = row_of(&k->before[ch], y);
     }
-    if (!l->outer_radius)
-        lamina_row_unfiltered(c->n, change, p, &rows, c->fdsr);
-    else if (l->inner_radius == 2 && l->outer_radius == 4 && c->fdsr)
+    if (!DOG_OUTER(l))
+        lamina_row_unfiltered(c->n, change, p, &rows, HAS_FDSR(c));
+    else if (KNOWN(l->inner_radius == 2 && l->outer_radius == 4 && c->fdsr, 0))
         lamina_row_as(c->n, e, i, c->inner, 2, c->outer, 4, p, &rows, 1);
     else
-        lamina_row_as(c->n, e, i, c->inner, l->inner_radius, c->outer, l->outer_radius, p, &rows, c->fdsr);
-    if (c->fdsr)
+        lamina_row_as(c->n, e, i, c->inner, DOG_INNER(l), c->outer, DOG_OUTER(l), p, &rows, HAS_FDSR(c));
+    if (HAS_FDSR(c))
         zero_right(rows.adapted, l->width, l->margin);
-    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+    for (int ch = 0; ch < 2 && !HAS_FDSR(c); ch++) {
         zero_right(rows.apart[ch], l->width, l->margin);
         zero_right(rows.before[ch], l->width, 0);
     }
     for (int ch = 0; ch < 2; ch++) {
         float *map = tap_row(p, LOBULA_TAP_ADAPTED_ON + ch, l, y);
         for (int x = 0; map && x < l->width; x++)
-            map[x] = c->fdsr ? part_of(rows.adapted[x], ch == ON ? 1.0f : -1.0f) : rows.apart[ch][x];
+            map[x] = HAS_FDSR(c) ? part_of(rows.adapted[x], ch == ON ? 1.0f : -1.0f) : rows.apart[ch][x];
     }
     float *map = tap_row(p, LOBULA_TAP_LAMINA, l, y);
-    if (map && l->outer_radius)
-        edges_map(l->width, e, i, c->inner, l->inner_radius, c->outer, l->outer_radius, p->dead_zone, map);
+    if (map && DOG_OUTER(l))
+        edges_map(l->width, e, i, c->inner, DOG_INNER(l), c->outer, DOG_OUTER(l), p->dead_zone, map);
     else
         copy_to_tap(p, LOBULA_TAP_LAMINA, l, y, change);
 }
 
+#if defined(LOBULA_LAPTOP)
 static void motion_tap(const constants *c, scratch *k, const step_plan *p, int y, const stored *kept) {
     float *map = tap_row(p, LOBULA_TAP_MOTION, c->l, y);
     if (!map) return;
@@ -141,28 +148,41 @@ static void motion_tap(const constants *c, scratch *k, const step_plan *p, int y
     }
 }
 
+#endif
+
 static void motion_row(const constants *c, scratch *k, const step_plan *p, int y) {
     const layout *l = c->l;
-    stored *kept = c->fdsr ? state_row(l, c->planes, l->planes.adapted, y) : NULL;
+    stored *kept = HAS_FDSR(c) ? state_row(l, c->planes, l->planes.adapted, y) : NULL;
     float *excitation[E_ROWS] = {NULL};
-    for (int i = 0; i < E_ROWS && c->lgmds_read_lamina; i++) excitation[i] = row_of(&k->excitation[ADAPTED][i], y);
+    for (int i = 0; i < E_ROWS && READ_LAMINA(c); i++) excitation[i] = row_of(&k->excitation[ADAPTED][i], y);
+#if defined(LOBULA_LAPTOP)
     motion_tap(c, k, p, y, kept);
-    if (c->fdsr)
-        k->hs = emd_row(c->n, row_of(&k->adapted, y), kept, excitation, p, c->lgmds_read_lamina, k->hs);
-    for (int ch = 0; ch < 2 && !c->fdsr; ch++) {
+#endif
+    if (HAS_FDSR(c))
+        k->hs = emd_row(c->n, row_of(&k->adapted, y), kept, excitation, p, READ_LAMINA(c), k->hs);
+    for (int ch = 0; ch < 2 && !HAS_FDSR(c); ch++) {
         const float *now = row_of(&k->apart[ch], y), *before = row_of(&k->before[ch], y);
         k->hs = emd_row_apart(c->n, now, before, p, k->hs);
-        if (!c->lgmds_read_lamina) continue;
+        if (!READ_LAMINA(c)) continue;
         memcpy(excitation[ch], now, (size_t)l->width * sizeof(float));
         memcpy(excitation[E_ON_BEFORE + ch], before, (size_t)l->width * sizeof(float));
     }
-    for (int i = 0; i < E_ROWS && c->lgmds_read_lamina; i++)
+    for (int i = 0; i < E_ROWS && READ_LAMINA(c); i++)
         replicate_margins(excitation[i], l->width, c->reach[ADAPTED]);
 }
 
 static float *excitation_of(const scratch *k, int source, int channel, int before, int y) {
     return row_of(&k->excitation[source][before ? E_ON_BEFORE + channel : channel], y);
 }
+
+static float *sums_of(const scratch *k, int j, int y) { return row_of(&k->sums, y) + j * LANES; }
+
+static void sums_map(const constants *c, const step_plan *p, int tap, int y, const float *sums) {
+    float *map = tap_row(p, tap, c->l, y);
+    for (int x = 0; map && x < c->l->width; x++) map[x] = sums[x / LANES * LANES * SUMS + x % LANES];
+}
+
+#if defined(LOBULA_LAPTOP)
 
 static float *weighed_of(const scratch *k, int set, int y) {
     return row_of(&k->weighed[set / 2], y) + set % 2 * LANES;
@@ -184,36 +204,83 @@ static void set_row(const constants *c, scratch *k, const step_plan *p, int set,
             copy_to_tap(p, LOBULA_TAP_LGMD1_INHIBITION_ON + 4 * j + q->channel, c->l, mid, k->inhibition[set]);
 }
 
-static float *sums_of(const scratch *k, int j, int y) { return row_of(&k->sums, y) + j * LANES; }
-
-static void sums_map(const constants *c, const step_plan *p, int tap, int y, const float *sums) {
-    float *map = tap_row(p, tap, c->l, y);
-    for (int x = 0; map && x < c->l->width; x++) map[x] = sums[x / LANES * LANES * SUMS + x % LANES];
+/* Row y of the summation of one LGMD. */
+static void add_up(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    const lgmd_plan *q = &p->lgmd[j];
+    channel_rows channels[2];
+    for (int ch = 0; ch < 2; ch++) {
+        channels[ch].excitation = excitation_of(k, c->l->reads[j], ch, 0, y);
+        channels[ch].inhibition = q->set[ch] == NO_SET ? NULL : k->inhibition[q->set[ch]];
+    }
+    sum_row(c->n, q, channels, sums_of(k, j, y));
 }
 
-/* Row y of the summation, and the column sums it completes (row y - spacing). */
+#else
+
+static int alike(const step_plan *p, int channel) {
+    int a = p->lgmd[0].set[channel], b = p->lgmd[1].set[channel];
+    return a == b || a == NO_SET || b == NO_SET;
+}
+
+/* The same of both at once where they read the same rows with the same weights. */
+static void add_up(const constants *c, scratch *k, const step_plan *p, int j, int y) {
+    const layout *l = c->l;
+    int s = l->spacing[j], both = l->reads[0] == l->reads[1] && l->spacing[0] == l->spacing[1] && alike(p, ON) &&
+                                  alike(p, OFF) && p->lgmd[0].kind != SUM_NONE && p->lgmd[1].kind != SUM_NONE;
+    three_rows rows[2];
+    if (both && j == 1) return;
+    for (int ch = 0; ch < 2; ch++)
+        for (int i = 0; i < 3; i++) {
+            int row = clamp(y + (i - 1) * s, l->height);
+            rows[ch].now[i] = excitation_of(k, l->reads[j], ch, 0, row);
+            rows[ch].before[i] = excitation_of(k, l->reads[j], ch, 1, row);
+        }
+    sparse_row(c->n, rows, p, j, both ? 1 : j, s, row_of(&k->sums, y));
+}
+
+#endif
+
+static real omega(const lgmd_plan *q, float strongest) {
+    return q->omega_floor + q->omega_share * (real)strongest;
+}
+
+static float threshold(const lgmd_plan *q, float strongest) {
+    return (float)(q->threshold_grey * omega(q, strongest));
+}
+
+/* What a cell of row y must reach to be listed. It grows with the strongest sum; now and then is often enough. It stays a
+ * little below, so that rounding on the way to the final threshold loses nothing. */
+static float limit_of(scratch *k, const lgmd_plan *q, int j, int y) {
+    if (y % 8 == 1) k->limit[j] = 0.999999f * threshold(q, vf_highest(k->grouped[j].strongest));
+    return k->limit[j];
+}
+
+/* Row y of the summation, and the column sums it completes (row y - spacing), which on a robot are grouped at once. */
 static void summation_row(const constants *c, scratch *k, const step_plan *p, int j, int y) {
     const layout *l = c->l;
     const lgmd_plan *q = &p->lgmd[j];
     int s = l->spacing[j], mid = y - s;
     if (y < l->height) {
         float *sums = sums_of(k, j, y);
-        channel_rows channels[2];
-        for (int ch = 0; ch < 2; ch++) {
-            channels[ch].excitation = excitation_of(k, l->reads[j], ch, 0, y);
-            channels[ch].inhibition = q->set[ch] == NO_SET ? NULL : k->inhibition[q->set[ch]];
-        }
-        sum_row(c->n, q, channels, sums);
+        add_up(c, k, p, j, y);
         if (!q->grouping) k->total[j] = total_row(l->width, sums, k->total[j]);
         sums_map(c, p, LOBULA_TAP_LGMD1_SUMMATION + 4 * j, y, sums);
         if (!q->grouping) sums_map(c, p, LOBULA_TAP_LGMD1_GROUPED + 4 * j, y, sums);
     }
     if (!q->grouping || mid < 0) return;
+#if defined(LOBULA_LAPTOP)
     float *column = row_of(&k->column[j], mid);
     column_row(c->n, sums_of(k, j, clamp(mid - s, l->height)), sums_of(k, j, mid), sums_of(k, j, clamp(y, l->height)),
                column);
     replicate_margins(column, l->width, s);
+#else
+    const float *rows[3] = {sums_of(k, j, clamp(mid - s, l->height)), sums_of(k, j, mid),
+                            sums_of(k, j, clamp(y, l->height))};
+    k->grouped[j] = sparse_group(c->n, rows, s, limit_of(k, q, j, mid), q->list_scale, k->grouped[j]);
+#endif
 }
+
+#if defined(LOBULA_LAPTOP)
 
 /* All of the above at once, for the usual LGMDs away from the borders: LGMD-1 adds up both channels, LGMD-2 hears OFF
  * only, and OFF is the same for both. */
@@ -253,19 +320,13 @@ static how_usual usual(const constants *c, const step_plan *p) {
     return a->bias[OFF] == b->bias[OFF] ? PLAIN_SAME : PLAIN;
 }
 
-static real omega(const lgmd_plan *q, float strongest) {
-    return q->omega_floor + q->omega_share * (real)strongest;
-}
+#endif
 
-static float threshold(const lgmd_plan *q, float strongest) {
-    return (float)(q->threshold_grey * omega(q, strongest));
-}
+#if defined(LOBULA_LAPTOP)
 
 static grouping_rows rows_to_group(const constants *c, scratch *k, const step_plan *p, int j, int y) {
-    /* The limit grows with the strongest sum; now and then is often enough. It stays a little below, so that rounding
-     * on the way to the final threshold loses nothing. */
-    if (y % 8 == 1) k->limit[j] = 0.999999f * threshold(&p->lgmd[j], vf_highest(k->grouped[j].strongest));
-    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(k->limit[j]),
+    float limit = limit_of(k, &p->lgmd[j], j, y);
+    grouping_rows r = {sums_of(k, j, y), row_of(&k->column[j], y), c->l->spacing[j], vf_all(limit),
                        vf_all(p->lgmd[j].list_scale)};
     return r;
 }
@@ -287,11 +348,13 @@ static void grouping_row_of_both(const constants *c, scratch *k, const step_plan
     grouping_rows r[2] = {rows_to_group(c, k, p, 0, y), rows_to_group(c, k, p, 1, y)};
     group_row_of_both(c->l->width, r, k->grouped);
 }
+#endif
 
 /* Row y of what the LGMDs read is there. */
 static void source_row(const constants *c, scratch *k, const step_plan *p, int source, int y) {
     const layout *l = c->l;
     if (y < 0) return;
+#if defined(LOBULA_LAPTOP)
     for (int j = 0; j < 2; j++) {
         int row = y - 2 * l->spacing[j] - SETTLE;
         if (l->reads[j] != source || p->lgmd[j].kind == SUM_NONE || !p->lgmd[j].grouping || row < 0 || row >= l->height)
@@ -307,6 +370,7 @@ static void source_row(const constants *c, scratch *k, const step_plan *p, int s
     }
     for (int i = 0; i < p->sets; i++)
         if (p->set[i].source == source && y < l->height + p->set[i].spacing) set_row(c, k, p, i, y);
+#endif
     for (int j = 0; j < 2; j++) {
         int summed = y - l->spacing[j];
         if (l->reads[j] == source && p->lgmd[j].kind != SUM_NONE && summed >= 0 && summed < l->height + l->spacing[j])
@@ -318,20 +382,24 @@ static void source_row(const constants *c, scratch *k, const step_plan *p, int s
  * after what wrote it, see SETTLE. */
 static void push_row(const constants *c, scratch *k, step_plan *p, int y) {
     const layout *l = c->l;
-    int height = l->height, blurred = y - l->outer_radius, laminated = blurred - (l->outer_radius ? SETTLE : 0);
+    int height = l->height, blurred = y - DOG_OUTER(l), laminated = blurred - (DOG_OUTER(l) ? SETTLE : 0);
     int moved = laminated - SETTLE;
-    if (c->lgmds_read_lamina) source_row(c, k, p, ADAPTED, moved - SETTLE);
-    if (c->lgmds_read_change) source_row(c, k, p, CHANGE, y - SETTLE);
+    if (READ_LAMINA(c)) source_row(c, k, p, ADAPTED, moved - SETTLE);
+    if (READ_CHANGE(c)) source_row(c, k, p, CHANGE, y - SETTLE);
     if (moved >= 0 && moved < height) motion_row(c, k, p, moved);
-    if (l->outer_radius && laminated >= 0 && laminated < height) lamina_row(c, k, p, laminated);
+    if (DOG_OUTER(l) && laminated >= 0 && laminated < height) lamina_row(c, k, p, laminated);
     if (y < height) retina_row(c, k, p, y);
-    if (l->outer_radius && blurred >= 0 && blurred < height) blur_row(c, k, blurred);
-    if (!l->outer_radius && y < height) lamina_row(c, k, p, y);
+    if (DOG_OUTER(l) && blurred >= 0 && blurred < height) blur_row(c, k, blurred);
+    if (!DOG_OUTER(l) && y < height) lamina_row(c, k, p, y);
 }
 
 static void begin(const constants *c, scratch *k, const step_plan *p) {
     vd none = {0};
+#if defined(LOBULA_LAPTOP)
     k->usual = usual(c, p);
+#else
+    (void)p;
+#endif
     zero_margins(&k->adapted, c->l->margin);
     for (int ch = 0; ch < 2; ch++) zero_margins(&k->apart[ch], c->l->margin);
     k->hs = none;

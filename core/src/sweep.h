@@ -90,7 +90,7 @@ typedef struct {
     change_summary (*summarise)(extent e, picture image, picture previous);
     real (*largest_change)(extent e, picture image, picture previous);
     /* pixels brighter, and darker, by more than half a grey level */
-    void (*coverage)(extent e, picture image, picture previous, int64_t *brighter, int64_t *darker);
+    void (*coverage)(extent e, picture image, picture previous, int32_t *brighter, int32_t *darker);
     light_sums (*light)(extent e, picture image, picture previous, real limit);
     real (*light_rest)(extent e, picture image, picture previous, real limit, real gain, real offset);
     /* mean |image - (gain previous + offset)| */

@@ -200,8 +200,21 @@ INLINE vf vf_all(float x) { return x; }
 INLINE vf vf_max(vf a, vf b) { return a > b ? a : b; }
 INLINE vf vf_min(vf a, vf b) { return a < b ? a : b; }
 INLINE vf vf_abs(vf a) { return fabsf(a); }
-INLINE vf vf_xor(vf a, vf sign) { return sign == 0.0f && !signbit(sign) ? a : -a; }
-INLINE vf vf_sign(vf a) { return a < 0.0f ? -0.0f : 0.0f; }
+INLINE vf vf_xor(vf a, vf sign) {
+    uint32_t bits, other;
+    memcpy(&bits, &a, sizeof bits);
+    memcpy(&other, &sign, sizeof other);
+    bits ^= other;
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
+INLINE vf vf_sign(vf a) {
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    bits &= 0x80000000u;
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
 INLINE vm vf_ge(vf a, vf b) { return a >= b; }
 INLINE vm vf_gt(vf a, vf b) { return a > b; }
 INLINE vm vm_and(vm a, vm b) { return a & b; }
@@ -224,6 +237,22 @@ INLINE void vd_add(vd *s, vf a) {
 
 #endif
 
+#if LANES == 1
+
+INLINE vf vf_load(const float *p) { return *p; }
+INLINE void vf_store(float *p, vf a) { *p = a; }
+
+/* Without branches and without the floating point unit, where comparing takes four instructions. */
+INLINE vf vf_above_zero(vf a) {
+    uint32_t bits;
+    memcpy(&bits, &a, sizeof bits);
+    bits &= ~(uint32_t)((int32_t)bits >> 31);
+    memcpy(&a, &bits, sizeof a);
+    return a;
+}
+
+#else
+
 INLINE vf vf_load(const float *p) {
     vf a;
     memcpy(&a, p, sizeof a);
@@ -231,6 +260,10 @@ INLINE vf vf_load(const float *p) {
 }
 
 INLINE void vf_store(float *p, vf a) { memcpy(p, &a, sizeof a); }
+
+INLINE vf vf_above_zero(vf a) { return vf_max(a, vf_all(0.0f)); }
+
+#endif
 
 #if defined(LOBULA_LAPTOP)
 INLINE double vd_total(const vd *sum) {
