@@ -96,7 +96,7 @@ def test_it_compiles_without_a_word(name, folders):
     assert (folders(name) / "robot").exists()
 
 
-@pytest.mark.parametrize("other", ["clang", "arm-none-eabi-gcc", "tcc"])
+@pytest.mark.parametrize("other", ["clang", "arm-none-eabi-gcc"])
 def test_other_compilers_take_it_too(other, folders, tmp_path):
     if shutil.which(other) is None:
         pytest.skip(f"no {other}")
