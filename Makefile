@@ -9,7 +9,7 @@ NEW_ENOUGH = import sys; sys.version_info >= (3, 11) or sys.exit("lobula needs P
 # setuptools packs whatever lies in build/, files that were deleted since included
 INSTALL = rm -rf build && $(IN) -m pip install --quiet
 
-.PHONY: demo test lint clean
+.PHONY: demo test lint firmware-test clean
 
 demo: $(IN)
 	$(INSTALL) ".[plot]"
@@ -25,6 +25,12 @@ lint: $(IN)
 	$(IN) -m ruff check .
 	$(IN) -m ruff format --check .
 	$(IN) -m mypy
+
+# The core on an emulated Cortex-M4F; Debian's packages gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm.
+FRAMES = 600
+firmware-test: $(IN)
+	$(INSTALL) "."
+	$(IN) firmware/on_qemu.py --frames $(FRAMES)
 
 clean:
 	rm -rf $(VENV) build dist out

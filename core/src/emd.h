@@ -48,10 +48,10 @@ INLINE vd emd_row_as(int n, const float *adapted, stored *restrict kept, float *
 static vd emd_row(int n, const float *adapted, stored *kept, float *const *excitation, const step_plan *p, int lgmds,
                   vd sum) {
     static const int usual[4] = {1, 2, 3, 4};
-    lgmds = KNOWN(lgmds, LOBULA_READS_LAMINA);
+    const int heard = KNOWN(lgmds, LOBULA_READS_LAMINA);
     if (p->spans != 4 || memcmp(p->span, usual, sizeof usual) != 0)
-        return emd_row_as(n, adapted, kept, excitation, p->span, p->span_share, p->spans, lgmds, sum);
-    return lgmds ? emd_row_as(n, adapted, kept, excitation, usual, p->span_share, 4, 1, sum)
+        return emd_row_as(n, adapted, kept, excitation, p->span, p->span_share, p->spans, heard, sum);
+    return heard ? emd_row_as(n, adapted, kept, excitation, usual, p->span_share, 4, 1, sum)
                  : emd_row_as(n, adapted, kept, NULL, usual, p->span_share, 4, 0, sum);
 }
 

@@ -6,7 +6,7 @@
 #define KNOWN(here, there) (here)
 #else
 #include "lobula_sizes.h"
-#define KNOWN(here, there) (there)
+#define KNOWN(here, there) ((void)(here), (there))
 #endif
 
 #define DOG_INNER(l) KNOWN((l)->inner_radius, LOBULA_DOG_INNER_PX)

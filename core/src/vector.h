@@ -246,6 +246,7 @@ INLINE void vf_store(float *p, vf a) { *p = a; }
 INLINE vf vf_above_zero(vf a) {
     uint32_t bits;
     memcpy(&bits, &a, sizeof bits);
+    /* cppcheck-suppress shiftTooManyBitsSigned ; every compiler there is fills up with the sign */
     bits &= ~(uint32_t)((int32_t)bits >> 31);
     memcpy(&a, &bits, sizeof a);
     return a;
