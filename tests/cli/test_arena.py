@@ -49,6 +49,13 @@ class TestReport:
         done = call(*SHORT, "--json", "--preset", "published", "--neurons", "lgmd2")
         assert (record(done)["preset"], record(done)["neurons"]) == ("published", "lgmd2")
 
+    def test_the_robots_own_arithmetic(self, call):
+        done = call(*SHORT, "--json", "--storage", "compact")
+        assert (done.code, record(done)["status"]) == (0, "ok")
+        done = call(*SHORT, "--storage", "tiny")
+        assert done.code == 2
+        assert "storage 'tiny': must be one of float, compact" in done.err
+
     def test_every_event_in_a_table(self, call, tmp_path):
         done = call(*SHORT, "--json", "--events", "events.csv")
         with (tmp_path / "events.csv").open() as file:

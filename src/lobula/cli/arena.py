@@ -43,6 +43,9 @@ def arena(
     settings: o.Settings = None,
     sensitivity: o.Sensitivity = None,
     engine: o.Engine = "auto",
+    storage: Annotated[
+        str | None, typer.Option(metavar="float|compact", help="compact: the robot's arithmetic, 16-bit planes")
+    ] = None,
     save: Annotated[
         list[Path] | None,
         typer.Option(metavar="FILE.npz|mp4|png", help="the replay, a film or a picture of the run; may be repeated"),
@@ -90,13 +93,14 @@ def arena(
         if replay is not None:
             _refuse({"--robots": robots, "--minutes": minutes, "--seed": seed, "--world": world, "--preset": preset,
                      "--neurons": neurons, "--config": config, "--set": settings and " ".join(settings),
-                     "--sensitivity": sensitivity, "--checkpoint": checkpoint, "--events": events})  # fmt: skip
+                     "--sensitivity": sensitivity, "--storage": storage, "--checkpoint": checkpoint,
+                     "--events": events})  # fmt: skip
             return _replay(replay, saves, shown, json)
         there = None if world is None else load_world(world)
         kept = load_snapshot(checkpoint) if checkpoint is not None and checkpoint.exists() else None
         request: dict[str, Any] = {
             "world": there,
-            "controller": NetworkController(chosen.params, engine=engine),
+            "controller": NetworkController(chosen.params, engine=engine, storage=storage or "float"),
             "robots": robots,
             "minutes": minutes,
             "seed": seed,

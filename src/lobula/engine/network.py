@@ -61,7 +61,7 @@ def chosen_storage(storage: str, engine: str) -> Storage:
         raise ParameterError(f"storage {storage!r}: must be one of {', '.join(STORAGES)}")
     if storage == "compact" and engine == "reference":
         raise ParameterError("storage 'compact': is the robot's arithmetic: must go with engine 'core'")
-    return storage
+    return "compact" if storage == "compact" else "float"
 
 
 class Network:
