@@ -2,6 +2,7 @@
 
 import re
 import subprocess
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -73,6 +74,14 @@ def test_the_numbers_that_the_papers_and_their_code_print():
     assert found["LOBULA_LPTC_SIGMOID_GREY2"] == "0.01f"
     assert found["LOBULA_LPTC_EMD_DELAYS_MS"] == "{40.0f, 30.0f, 20.0f, 10.0f}"
     assert (found["LOBULA_LGMD1_READS"], found["LOBULA_DECISION_NEURONS"]) == ("0", "0")
+
+
+def test_the_settings_that_the_cores_own_tests_use_are_the_papers():
+    """core/robot/lobula_config.h is no copy of a file that is written, but must not fall behind it."""
+    kept = macros((Path(__file__).parents[2] / "core/robot/lobula_config.h").read_text(encoding="utf-8"))
+    made = macros(config_header(preset("paper"), "paper", 99, 72))
+    assert set(made) - set(kept) <= {"LOBULA_VERSION", "LOBULA_SETTINGS_HASH"}
+    assert {name: value for name, (value, _) in kept.items()} == {name: made[name][0] for name in kept}
 
 
 def test_what_was_set_by_hand_says_so():
