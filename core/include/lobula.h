@@ -36,8 +36,6 @@ extern "C" {
 #define LOBULA_API
 #endif
 
-#define LOBULA_ABI 3        /* changes when anything in this file does */
-
 /* ---- What goes in. Settings, readings and maps stand in lobula_types.h. ------------------------------------------ */
 
 typedef struct {

@@ -19,6 +19,8 @@ typedef float lobula_real;
 #define LOBULA_ALIGN 8
 #endif
 
+#define LOBULA_ABI 3 /* changes when anything in this file or in lobula.h does */
+
 #define LOBULA_MIN_WIDTH 32
 #define LOBULA_MIN_HEIGHT 24
 #define LOBULA_MAX_SIDE 32768

@@ -163,7 +163,7 @@ static void gaussian_kernel(int radius, real sigma, float *weights) {
 void network_init(network_state *s, const lobula_params *p, const layout *l, int isa, int storage) {
     memset(s, 0, sizeof *s);
     s->magic = STATE_MAGIC;
-    s->abi = STATE_ABI;
+    s->abi = LOBULA_ABI;
     s->isa = isa;
     s->storage = storage;
     s->layout = *l;

@@ -5,7 +5,6 @@
 #include "layout.h"
 
 #define STATE_MAGIC 0x6c6f6275u
-#define STATE_ABI 3 /* LOBULA_ABI */
 
 typedef struct {
     uint32_t magic, abi;

@@ -52,12 +52,17 @@ static inline lobula_params published(void) {
     return p;
 }
 
-/* A network with memory of its own, for blocks of `frames`. */
-static inline lobula_net network(const lobula_params *p, int width, int height, int frames) {
-    lobula_net net = {memory(lobula_state_size(p, width, height, LOBULA_FLOAT)),
-                      memory(lobula_workspace_size(p, width, height, LOBULA_FLOAT, frames))};
-    CHECK(lobula_init(net.state, p, width, height, LOBULA_FLOAT, LOBULA_ISA_AUTO) == LOBULA_OK, "a network that should be possible");
+/* A network with memory of its own, for blocks of `frames`, its planes kept in `storage`. */
+static inline lobula_net network_in(int storage, const lobula_params *p, int width, int height, int frames) {
+    lobula_net net = {memory(lobula_state_size(p, width, height, storage)),
+                      memory(lobula_workspace_size(p, width, height, storage, frames))};
+    CHECK(lobula_init(net.state, p, width, height, storage, LOBULA_ISA_AUTO) == LOBULA_OK,
+          "a network that should be possible");
     return net;
+}
+
+static inline lobula_net network(const lobula_params *p, int width, int height, int frames) {
+    return network_in(LOBULA_FLOAT, p, width, height, frames);
 }
 
 static inline void release(lobula_net *net) {

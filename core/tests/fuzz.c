@@ -143,9 +143,9 @@ static double draw_pixel(dice *d, int kind, double low, double high) {
 }
 
 /* Pictures that fill their memory to the last byte, upside down now and then. */
-static film draw_film(dice *d, int width, int height, double after_s) {
+static film draw_film(dice *d, int width, int height, double after_s, int bytes_only) {
     film f = {.count = 1 + below(d, MOST_FRAMES)};
-    size_t pixel = one_in(d, 2) ? 1 : sizeof(float);
+    size_t pixel = bytes_only || one_in(d, 2) ? 1 : sizeof(float);
     size_t row = ((size_t)width + (one_in(d, 2) ? (size_t)below(d, 20) : 0)) * pixel;
     size_t image = row * (size_t)(height - 1) + (size_t)width * pixel;
     size_t apart = image + pixel * (size_t)below(d, 3);
@@ -248,15 +248,16 @@ static void fuzz_network(dice *d) {
     lobula_params p = draw_params(d);
     int width = LOBULA_MIN_WIDTH + below(d, 109), height = LOBULA_MIN_HEIGHT + below(d, 87);
     int frames = 1 + below(d, 18), isa = 0;
-    lobula_net a = network(&p, width, height, 1), b = network(&p, width, height, frames);
+    int storage = one_in(d, 3) ? LOBULA_COMPACT : LOBULA_FLOAT;
+    lobula_net a = network_in(storage, &p, width, height, 1), b = network_in(storage, &p, width, height, frames);
     while (lobula_isa_name(isa + 1) && one_in(d, 2)) isa++;
     if (lobula_isa_runs(isa)) {
-        CHECK(lobula_init(a.state, &p, width, height, LOBULA_FLOAT, isa) == LOBULA_OK, "an instruction set that runs here");
-        CHECK(lobula_init(b.state, &p, width, height, LOBULA_FLOAT, isa) == LOBULA_OK, "an instruction set that runs here");
+        CHECK(lobula_init(a.state, &p, width, height, storage, isa) == LOBULA_OK, "an instruction set that runs here");
+        CHECK(lobula_init(b.state, &p, width, height, storage, isa) == LOBULA_OK, "an instruction set that runs here");
     }
     double now_s = between(d, -1.0, 1e6);
     for (int part = 1 + below(d, 3); part > 0; part--) {
-        film f = draw_film(d, width, height, now_s);
+        film f = draw_film(d, width, height, now_s, storage == LOBULA_COMPACT);
         live(d, &a, &b, frames, &f, width, height);
         now_s = f.times_s[f.count - 1];
         free(f.memory);
@@ -280,7 +281,7 @@ static void fuzz_resize(dice *d) {
     s.out_height = 1 + below(d, 110);
     s.gain = one_in(d, 2) ? 1.0 : 255.0 / 219.0;
     s.offset = s.gain == 1.0 ? 0.0 : -16.0 * 255.0 / 219.0;
-    film f = draw_film(d, s.source_width, s.source_height, 0.0);
+    film f = draw_film(d, s.source_width, s.source_height, 0.0, 0);
     size_t pixels = (size_t)s.out_width * (size_t)s.out_height;
     void *plan = memory(lobula_resize_size(&s));
     float *out = memory(pixels * sizeof *out);

@@ -50,18 +50,11 @@ static void draw(uint8_t *pixels, int t) {
         }
 }
 
-static lobula_net compact(const lobula_params *p) {
-    lobula_net net = {memory(lobula_state_size(p, WIDTH, HEIGHT, LOBULA_COMPACT)),
-                      memory(lobula_workspace_size(p, WIDTH, HEIGHT, LOBULA_COMPACT, 1))};
-    CHECK(lobula_init(net.state, p, WIDTH, HEIGHT, LOBULA_COMPACT, LOBULA_ISA_AUTO) == LOBULA_OK, "a compact network");
-    return net;
-}
-
 static void as_with_floats(void) {
     static uint8_t pixels[WIDTH * HEIGHT];
     static float plane[WIDTH * HEIGHT];
     lobula_params p = published();
-    lobula_net small = compact(&p), large = network(&p, WIDTH, HEIGHT, 1);
+    lobula_net small = network_in(LOBULA_COMPACT, &p, WIDTH, HEIGHT, 1), large = network(&p, WIDTH, HEIGHT, 1);
     CHECK(2 * lobula_state_size(&p, WIDTH, HEIGHT, LOBULA_COMPACT) < lobula_state_size(&p, WIDTH, HEIGHT, LOBULA_FLOAT) + 8192,
           "half the memory");
     for (int t = 0; t < FRAMES; t++) {
@@ -88,5 +81,6 @@ int main(void) {
     every_half();
     every_rounding();
     as_with_floats();
+    puts("compact: good");
     return 0;
 }

@@ -50,7 +50,7 @@ static void decisions(const lobula_params *p, double hz, int frames_of_200_ms) {
     const int32_t two[4] = {2, 2, 0, 0};
     for (int habit = 0; habit < HABITS; habit++)
         for (int gap = 1; gap <= frames_of_200_ms + 1; gap++) {
-            lobula_state *s = memory(lobula_state_size(p, 32, 24, LOBULA_FLOAT));
+            network_state *s = memory(lobula_state_size(p, 32, 24, LOBULA_FLOAT));
             CHECK(lobula_init(s, p, 32, 24, LOBULA_FLOAT, LOBULA_ISA_AUTO) == LOBULA_OK, "a network");
             decision_step(s, stamp(hz, 0, habit), two, 1.0);
             decision_step(s, stamp(hz, gap, habit), two, 1.0);
