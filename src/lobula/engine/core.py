@@ -232,7 +232,8 @@ class CoreNetwork:
 
 def _whole_grey(images: NDArray[Any]) -> NDArray[np.uint8]:
     """Return what a camera of bytes would give."""
-    return np.rint(images).astype(np.uint8)
+    whole: NDArray[np.uint8] = np.rint(images).astype(np.uint8)
+    return whole
 
 
 def _images(images: NDArray[Any]) -> tuple[NDArray[Any], Images]:
