@@ -102,11 +102,11 @@ def build(preset: str, folder: Path) -> dict[str, int]:
     table = subprocess.run(
         ["arm-none-eabi-size", str(folder / "robot.elf")], check=True, capture_output=True, text=True
     )
-    text, data, bss = map(int, table.stdout.splitlines()[1].split()[:3])
+    code, data, bss = map(int, table.stdout.splitlines()[1].split()[:3])
     calls = [line.split("\t") for path in folder.glob("*.su") for line in path.read_text().splitlines()]
     largest = max(calls, key=lambda call: int(call[1]))
     print(f"  largest stack frame: {largest[1]} bytes, {largest[0].rpartition('/')[2]}")
-    return {"flash": text + data, "static": data + bss}
+    return {"flash": code + data, "static": data + bss}
 
 
 def emulate(folder: Path, seen: Film) -> tuple[NDArray[Any], NDArray[Any]]:
