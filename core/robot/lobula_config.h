@@ -1,13 +1,14 @@
-/* The settings and the size of one network: an example, as `lobula export c --preset paper --size 99x72` writes it.
+/* The settings and the size of one network: preset paper, 99 x 72 px, settings e985faff8db8.
  *
- * One macro for each setting of the Python package, named after its path (lamina.dog.sigma_px is
- * LOBULA_LAMINA_DOG_SIGMA_PX), but `origins` and decision.turning_deg_s; LOBULA_LPTC_EMD_SPANS counts the pairs. Whole
- * numbers, switches (0 or 1) and choices (counted from 0) are plain integers, since the preprocessor reads some of them;
- * all others are floats with an f behind. */
+ * Written by `lobula export c` of lobula 0.1.0: do not edit, export again. Each macro is named after the setting's
+ * path (`lobula config show` lists them); its comment says what it means, its unit, and in brackets where the value
+ * comes from. Whole numbers, switches (0 or 1) and choices (counted from 0) are integers, all others floats. */
 #ifndef LOBULA_CONFIG_H
 #define LOBULA_CONFIG_H
 
+#define LOBULA_VERSION "0.1.0"
 #define LOBULA_PRESET "paper"
+#define LOBULA_SETTINGS_HASH "e985faff8db8"
 #define LOBULA_WIDTH 99
 #define LOBULA_HEIGHT 72
 
@@ -103,8 +104,8 @@
 #define LOBULA_LGMD2_SFA_GROWTH 0.003f /* growth for each clock tick above which nothing fades, 1/tick (published code: LGMD2) */
 #define LOBULA_LGMD2_SPIKING_GAIN 4.0f /* K_sp (paper Sec. III) */
 #define LOBULA_LGMD2_SPIKING_THRESHOLD 0.7f /* T_sp, of the potential's magnitude (paper Sec. III) */
-#define LOBULA_LPTC_EMD_SPANS 4
-#define LOBULA_LPTC_EMD_WIDEST_PX 4
+#define LOBULA_LPTC_EMD_SPANS 4 /* how many pairs of cells there are */
+#define LOBULA_LPTC_EMD_WIDEST_PX 4 /* the largest distance, px */
 #define LOBULA_LPTC_EMD_SPANS_PX {1, 2, 3, 4} /* distances of the paired cells, px (chosen: what passes a robot moves 1 to 3 px) */
 #define LOBULA_LPTC_EMD_DELAYS_MS {40.0f, 30.0f, 20.0f, 10.0f} /* delay of each span, ms (published code: LPLC2) */
 #define LOBULA_LPTC_SIGMOID_GREY2 0.002f /* K_hs: net motion for each pixel that drives the sigmoid, grey^2 (calibrated on the synthetic battery at 30 Hz (docs/calibration.md)) */
