@@ -22,6 +22,7 @@ from lobula.arena.snapshot import save_snapshot
 from lobula.arena.world import CameraParams, RobotParams, RoomParams, World
 from lobula.errors import ParameterError
 
+from ..engine.engines import needs_core
 from .stand_ins import assert_same_table
 
 SMALL = World(
@@ -234,3 +235,10 @@ class TestResume:
         with pytest.raises(ParameterError, match=r"not NetworkController .*: decision\.neurons was 'all', is"):
             run(controller=NetworkController(second), minutes=0.02, resume=path)
         assert run(controller=NetworkController(first), minutes=0.02, resume=path).finished
+
+    @needs_core
+    def test_another_storage_is_refused(self, tmp_path: Path) -> None:
+        path = tmp_path / "run.npz"
+        run(SMALL, NetworkController(storage="compact"), minutes=0.01, checkpoint=path)
+        with pytest.raises(ParameterError, match=r"checkpoint of NetworkController \w+ compact: must be resumed with"):
+            run(controller=NetworkController(), minutes=0.02, resume=path)

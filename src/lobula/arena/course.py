@@ -165,10 +165,11 @@ class Course:
 
 
 def _in_words(controller: Controller) -> str:
-    """Return the controller's kind, and the hash of its settings where it has some."""
-    params = getattr(controller, "params", None)
+    """Return the controller's kind, the hash of its settings where it has some, and how it stores if not as floats."""
+    params, storage = getattr(controller, "params", None), getattr(controller, "storage", "float")
     name = controller.name if isinstance(controller, EachRobot) else type(controller).__name__
-    return name + (f" {settings_hash(params)}" if isinstance(params, Params) else "")
+    name += f" {settings_hash(params)}" if isinstance(params, Params) else ""
+    return name if storage == "float" else f"{name} {storage}"
 
 
 def _first_difference(kept: Mapping[str, Any], own: Mapping[str, Any], where: str = "") -> str:
