@@ -55,11 +55,14 @@ typedef char header_fits[sizeof(network_state) <= LOBULA_HEADER_BYTES ? 1 : -1];
 
 enum { PICTURE_BYTES = LOBULA_WIDTH * LOBULA_HEIGHT };
 
+#define READY 0x6c6f6275u /* not 1: a state that was never made may hold anything */
+#define LONGEST_MS 1e9f   /* eleven days; only a timer that went wrong says more, and one such sum would spoil the time */
+
 static network_state *network_of(lobula_state *state) { return (network_state *)(void *)state->memory.bytes; }
 
 /* Lines wait for the end of their frame where the second list of grouped cells will end. It grows from the front by at
- * most 2 bytes for each cell of a row, and some rows behind the one that is read; so it gets there only after what it
- * overwrites has been read: 2 W (y - 3) <= W H + W y for every y < H. */
+ * most 2 bytes for each cell of a row, and three rows behind the one that is read or more; so it gets there only after
+ * what it overwrites has been read: 2 W (y - 2) <= W H + W y for every y < H. */
 static uint8_t *waiting_lines(lobula_state *state) {
     return state->memory.bytes + LOBULA_MEMORY_BYTES - PICTURE_BYTES;
 }
@@ -71,7 +74,7 @@ int lobula_init(lobula_state *state) {
     if (l.state_bytes > LOBULA_REMEMBERED_BYTES || kernels_base.scratch_bytes(&l) != LOBULA_WORKING_BYTES)
         return LOBULA_BAD_ARGUMENT; /* lobula_config.h contradicts itself */
     network_init(network_of(state), &settings, &l, 0, LOBULA_COMPACT);
-    state->ready = 1;
+    state->ready = READY;
     return LOBULA_OK;
 }
 
@@ -79,9 +82,10 @@ static int take_in(lobula_state *state, const uint8_t *luma, float dt_ms, lobula
     network_state *s = network_of(state);
     call c = {.s = s, .k = &kernels_base, .e = {LOBULA_WIDTH, LOBULA_HEIGHT}, .frames = 1};
     picture image = {(const char *)luma, LOBULA_WIDTH, LOBULA_UINT8};
-    if (!state->ready) return LOBULA_BAD_STATE;
+    if (state->ready != READY) return LOBULA_BAD_STATE;
+    if (!luma || !reading) return LOBULA_BAD_ARGUMENT;
     if (s->now.has_frame) {
-        if (!(dt_ms > 0.0f)) return LOBULA_BAD_ARGUMENT;
+        if (!(dt_ms > 0.0f && dt_ms <= LONGEST_MS)) return LOBULA_BAD_ARGUMENT;
         state->time_s += (double)dt_ms / 1000.0;
     }
     c.workspace = (char *)state->memory.bytes + LOBULA_REMEMBERED_BYTES;
@@ -95,7 +99,11 @@ int lobula_step(lobula_state *state, const uint8_t *luma, float dt_ms, lobula_re
     return take_in(state, luma, dt_ms, reading);
 }
 
+void lobula_begin_frame(lobula_state *state) { state->rows = 0; }
+
 int lobula_push_row(lobula_state *state, const uint8_t *row) {
+    if (state->ready != READY) return LOBULA_BAD_STATE;
+    if (!row) return LOBULA_BAD_ARGUMENT;
     if (state->rows < LOBULA_HEIGHT) {
         memcpy(waiting_lines(state) + state->rows * LOBULA_WIDTH, row, LOBULA_WIDTH);
         state->rows++;
@@ -105,7 +113,7 @@ int lobula_push_row(lobula_state *state, const uint8_t *row) {
 
 int lobula_end_frame(lobula_state *state, float dt_ms, lobula_reading *reading) {
     network_state *s = network_of(state);
-    for (int y = state->rows; state->ready && y < LOBULA_HEIGHT; y++)
+    for (int y = state->rows; state->ready == READY && y < LOBULA_HEIGHT; y++)
         memcpy(waiting_lines(state) + y * LOBULA_WIDTH, luma_row(&s->layout, state_planes(s), y), LOBULA_WIDTH);
     state->rows = 0;
     return take_in(state, waiting_lines(state), dt_ms, reading);

@@ -7,7 +7,8 @@
  *     lobula_reading reading;
  *     lobula_init(&state);
  *     for each frame:      lobula_step(&state, luma, dt_ms, &reading);
- *     or, line by line:    lobula_push_row(&state, line);  LOBULA_HEIGHT times, from the top
+ *     or, line by line:    lobula_begin_frame(&state);
+ *                          lobula_push_row(&state, line);  LOBULA_HEIGHT times, from the top
  *                          lobula_end_frame(&state, dt_ms, &reading);
  *     if (reading.collision) turn away;
  *
@@ -29,7 +30,8 @@ extern "C" {
 /* Everything a network remembers, and its room to work in. */
 typedef struct {
     double time_s;
-    int32_t rows, turning, ready;
+    int32_t rows, turning;
+    uint32_t ready;
     union {
         double aligned;
         uint8_t bytes[LOBULA_MEMORY_BYTES];
@@ -41,11 +43,15 @@ int lobula_init(lobula_state *state);
 
 /* Advance by one frame: LOBULA_HEIGHT rows of LOBULA_WIDTH bytes, luminance 0..255, row by row. `dt_ms` is the time
  * since the frame before (of the first frame: whatever). Returns reading->collision, 0 or 1; or an error below 0, and the
- * reading is as it was: LOBULA_BAD_STATE without lobula_init, LOBULA_BAD_ARGUMENT where dt_ms is not above 0. */
+ * reading is as it was: LOBULA_BAD_STATE without lobula_init, LOBULA_BAD_ARGUMENT where a pointer is null, or dt_ms is not
+ * above 0 or more than 1e9. */
 int lobula_step(lobula_state *state, const uint8_t *luma, float dt_ms, lobula_reading *reading);
 
-/* The same in parts. A line may be used for something else as soon as the call returns. More lines than LOBULA_HEIGHT
- * are not looked at; lines that are missing at the end stay as in the frame before. Returns how many are there. */
+/* The same in parts. `begin` forgets the lines so far: call it at the camera's vertical sync, and a frame that was broken
+ * off does not mix with the next; lobula_end_frame has done so too. A line may be used for something else as soon as
+ * `push` returns, which tells how many are there, or an error below 0. More than LOBULA_HEIGHT are not looked at; those
+ * that are missing at the end stay as in the frame before. Lines wait where `end` works: push none until it returns. */
+void lobula_begin_frame(lobula_state *state);
 int lobula_push_row(lobula_state *state, const uint8_t *row);
 int lobula_end_frame(lobula_state *state, float dt_ms, lobula_reading *reading);
 

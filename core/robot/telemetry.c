@@ -130,12 +130,14 @@ void lobula_telemetry_init(lobula_telemetry *line, const lobula_telemetry_hello 
 
 int lobula_telemetry_put(lobula_telemetry *line, const lobula_telemetry_reading *reading) {
     uint8_t bytes[LOBULA_TELEMETRY_HELLO_BYTES];
+    const uint16_t sequence = line->sequence++;
     if (line->until_hello == 0) {
         lobula_telemetry_encode_hello(line->hello, bytes);
-        if (wait_to_be_sent(line, bytes, LOBULA_TELEMETRY_HELLO_BYTES)) line->until_hello = LOBULA_TELEMETRY_HELLO_EVERY;
+        if (!wait_to_be_sent(line, bytes, LOBULA_TELEMETRY_HELLO_BYTES)) return 0; /* readings could keep it out for ever */
+        line->until_hello = LOBULA_TELEMETRY_HELLO_EVERY;
     }
-    if (line->until_hello > 0) line->until_hello--;
-    lobula_telemetry_encode_reading(reading, line->sequence++, bytes);
+    line->until_hello--;
+    lobula_telemetry_encode_reading(reading, sequence, bytes);
     return wait_to_be_sent(line, bytes, LOBULA_TELEMETRY_READING_BYTES);
 }
 

@@ -72,6 +72,62 @@ static void missing_lines(void) {
     CHECK(memcmp(&a, &b, sizeof a) == 0, "missing lines stay as they were");
 }
 
+static void broken_off(void) {
+    static lobula_state cut, plain;
+    static uint8_t pixels[LOBULA_WIDTH * LOBULA_HEIGHT];
+    lobula_reading a, b;
+    lobula_init(&cut);
+    lobula_init(&plain);
+    for (int t = 0; t < 34; t++) {
+        draw(pixels, t);
+        for (int y = 0; y < t; y++) lobula_push_row(&cut, pixels); /* then the camera begins anew */
+        lobula_begin_frame(&cut);
+        step(&cut, pixels, LOBULA_HEIGHT, &a);
+        step(&plain, pixels, -1, &b);
+        CHECK(memcmp(&a, &b, sizeof a) == 0, "a frame that was broken off leaves nothing behind");
+    }
+}
+
+/* Memory that was never made a state, as that of a variable on the stack. */
+static void not_a_state(void) {
+    static lobula_state s;
+    static uint8_t pixels[LOBULA_WIDTH * LOBULA_HEIGHT];
+    lobula_reading r;
+    memset(&s, 0xa5, sizeof s);
+    CHECK(lobula_push_row(&s, pixels) == LOBULA_BAD_STATE, "a line");
+    CHECK(lobula_end_frame(&s, TICK_MS, &r) == LOBULA_BAD_STATE, "the end of a frame");
+    CHECK(lobula_step(&s, pixels, TICK_MS, &r) == LOBULA_BAD_STATE, "a frame");
+    lobula_init(&s);
+    CHECK(lobula_push_row(&s, NULL) == LOBULA_BAD_ARGUMENT, "no line");
+    CHECK(lobula_step(&s, NULL, TICK_MS, &r) == LOBULA_BAD_ARGUMENT, "no picture");
+    CHECK(lobula_step(&s, pixels, TICK_MS, NULL) == LOBULA_BAD_ARGUMENT, "nowhere to write");
+}
+
+/* A timer that once says nonsense: refused, or a gap; the network then does what a fresh one does. */
+static void time_out_of_order(void) {
+    const float gaps[] = {INFINITY, 1e30f, 2e9f, 1e9f, 4294967.0f};
+    static lobula_state s, fresh;
+    static uint8_t pixels[LOBULA_WIDTH * LOBULA_HEIGHT];
+    lobula_reading a = {0}, b = {0};
+    for (int i = 0; i < 5; i++) {
+        lobula_init(&s);
+        lobula_init(&fresh);
+        draw(pixels, 0);
+        lobula_step(&s, pixels, TICK_MS, &a);
+        int answer = lobula_step(&s, pixels, gaps[i], &a);
+        CHECK(answer == (gaps[i] > 1e9f ? LOBULA_BAD_ARGUMENT : 0), "more than 1e9 ms cannot be");
+        int alarms = 0, expected = 0;
+        lobula_step(&fresh, pixels, TICK_MS, &b);
+        for (int t = 1; t < 34; t++) {
+            draw(pixels, t);
+            alarms += lobula_step(&s, pixels, TICK_MS, &a);
+            expected += lobula_step(&fresh, pixels, TICK_MS, &b);
+        }
+        CHECK(expected > 0 && alarms == expected, "as if nothing had been");
+        CHECK(fabsf(a.lgmd1 - b.lgmd1) < 1e-3f && fabsf(a.lptc_r - b.lptc_r) < 1e-3f, "the same potentials");
+    }
+}
+
 static void turns_and_mistakes(void) {
     static lobula_state s;
     static uint8_t pixels[LOBULA_WIDTH * LOBULA_HEIGHT];
@@ -98,6 +154,9 @@ static void turns_and_mistakes(void) {
 int main(void) {
     frames_and_lines();
     missing_lines();
+    broken_off();
+    not_a_state();
+    time_out_of_order();
     turns_and_mistakes();
     puts("robot: good");
     return 0;

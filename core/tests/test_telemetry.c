@@ -88,6 +88,23 @@ static void a_line_that_is_too_slow(void) {
     CHECK(lobula_telemetry_next(&line) == -1, "and no more");
 }
 
+/* A line that takes 46 bytes a picture has no room for 78 more while readings fill it up. */
+static void a_hello_on_a_full_line(void) {
+    lobula_telemetry line;
+    int hellos = 0, at = 0;
+    lobula_telemetry_init(&line, &about);
+    for (int k = 0; k < 200; k++) {
+        lobula_telemetry_put(&line, &usual);
+        for (int sent = 0; sent < LOBULA_TELEMETRY_READING_BYTES; sent++) {
+            int byte = lobula_telemetry_next(&line);
+            if (byte < 0) break;
+            at = byte == 0 ? 0 : at + 1;
+            hellos += at == LOBULA_TELEMETRY_HELLO_BYTES - 2;
+        }
+    }
+    CHECK(hellos >= 6, "one before every 32nd of 200, but for what still waits");
+}
+
 static void a_sequence_that_wraps(void) {
     lobula_telemetry line;
     uint8_t expected[LOBULA_TELEMETRY_READING_BYTES];
@@ -109,6 +126,7 @@ int main(void) {
     counts_that_do_not_fit();
     when_a_hello_comes();
     a_line_that_is_too_slow();
+    a_hello_on_a_full_line();
     a_sequence_that_wraps();
     puts("telemetry: good");
     return 0;
