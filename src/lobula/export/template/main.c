@@ -1,6 +1,6 @@
 /* An example: a robot that stops and turns away before something hits it.
  *
- * Here the camera is standard input, one byte a pixel, and the motors are lines of text. Put your own in the three
+ * Here the camera is standard input, one byte a pixel, and the motors are lines of text. Put your own in the four
  * places marked with >>. */
 #include <stdio.h>
 
@@ -15,7 +15,6 @@ static int next_line(uint8_t line[LOBULA_WIDTH]) {
 int main(void) {
     static lobula_state state; /* static: larger than most stacks */
     static const char *const said[] = {"forward", "stop", "turn left", "turn right"};
-    const float dt_ms = 1000.0f / 30.0f; /* >> the time since the picture before, by your timer */
     uint8_t line[LOBULA_WIDTH];
     float wheels_cm_s[2];
     lobula_reading r;
@@ -25,12 +24,14 @@ int main(void) {
     lobula_motor_init(&motor, 1);
     puts("frame,lgmd1,lgmd2,lptc_r,lptc_l,spikes_lgmd1,spikes_lgmd2,spikes_lptc_r,spikes_lptc_l,collision,action,left,right");
     for (long frame = 0;; frame++) {
-        lobula_set_turning(&state, lobula_motor_pass(&motor, dt_ms));
+        lobula_begin_frame(&state); /* >> at the vertical sync; if none comes for half a second, stop the motors here */
         for (int row = 0; row < LOBULA_HEIGHT; row++) {
             if (!next_line(line)) return 0;
             lobula_push_row(&state, line);
         }
-        lobula_end_frame(&state, dt_ms, &r);
+        const float dt_ms = 1000.0f / 30.0f; /* >> from the vertical sync before to this one, by your timer */
+        lobula_set_turning(&state, lobula_motor_pass(&motor, dt_ms));
+        if (lobula_end_frame(&state, dt_ms, &r) < 0) continue; /* no time has passed, says the timer */
         lobula_motor_decide(&motor, r.collision);
         lobula_motor_wheels(&motor, 8.0f, 4.8f, wheels_cm_s); /* at 8 cm/s, wheels 4.8 cm apart */
         /* >> your motors instead of text */
