@@ -1,5 +1,5 @@
 /* A whole robot, to see how large it is: camera lines in; network, wheels and serial line at work. The registers are
- * invented; the program is linked, not run. */
+ * invented (a flag is down again once it was read); the program is linked, not run. */
 #include "lobula.h"
 #include "motor.h"
 #include "telemetry.h"
