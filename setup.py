@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from setuptools import Extension, setup
@@ -63,13 +64,15 @@ class BuildCore(build_ext):
         folder = Path(self.build_temp) / "core"
         folder.mkdir(parents=True, exist_ok=True)
         target.parent.mkdir(parents=True, exist_ok=True)
-        objects = []
-        for source in sorted(SOURCE.glob("*.c")):
-            for name, own in _builds(source.name, variants, dispatch):
-                objects.append(str(folder / f"{source.stem}{name}.o"))
-                self._call([*compiler, *FLAGS, *own, "-c", str(source), "-o", objects[-1]])
+        commands = {
+            str(folder / f"{source.stem}{name}.o"): [*compiler, *FLAGS, *own, "-c", str(source)]
+            for source in sorted(SOURCE.glob("*.c"))
+            for name, own in _builds(source.name, variants, dispatch)
+        }
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            list(pool.map(self._call, ([*command, "-o", made] for made, command in commands.items())))
         strip = [] if sys.platform == "darwin" else ["-s"]
-        self._call([*compiler, "-shared", *strip, "-o", str(target), *objects, "-lm"])
+        self._call([*compiler, "-shared", *strip, "-o", str(target), *commands, "-lm"])
 
     def _call(self, command: list[str]) -> None:
         print(shlex.join(command))
