@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
@@ -72,3 +74,20 @@ def test_a_fault_of_our_own_keeps_its_traceback(call, monkeypatch):
     monkeypatch.setattr("lobula.bench.measure", broken)
     with pytest.raises(ZeroDivisionError):
         call("bench")
+
+
+@pytest.mark.parametrize("arguments", [["run", "locked/clip.mp4"], ["export", "c", "--out", "locked/robot"]])
+def test_a_folder_that_may_not_be_looked_into_is_one_line_and_2(call, monkeypatch, arguments):
+    """Root may look into every folder, so the system's answer is put in its place."""
+    stat = Path.stat
+
+    def refused(path, **options):
+        if "locked" in path.parts:
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return stat(path, **options)
+
+    monkeypatch.setattr(Path, "stat", refused)
+    done = call(*arguments)
+    assert done.code == 2
+    assert done.err.count("\n") == 1
+    assert f"{arguments[-1]}: no permission to look at it" in done.err

@@ -51,6 +51,10 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         return 0
     except LobulaError as error:
         return _complain(str(error), 3 if _on_the_way(error) else 2)
+    except PermissionError as error:
+        if error.filename is None:
+            raise
+        return _complain(f"{os.fsdecode(error.filename)}: no permission to look at it, must be readable", 2)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EIO):
             raise
