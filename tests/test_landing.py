@@ -51,3 +51,9 @@ def test_errors_become_one_line_that_names_the_file(error: OSError, words: str) 
     with pytest.raises(OutputError) as caught, writing(Path("out/t.csv")):
         raise error
     assert str(caught.value) == f"cannot write out/t.csv: {words}"
+
+
+def test_a_folder_that_is_there_is_not_said_to_be_missing(tmp_path: Path) -> None:
+    with pytest.raises(OutputError) as caught, writing(tmp_path / "t.csv"):
+        raise FileNotFoundError(2, "")  # as in /proc, where a folder takes no files
+    assert str(caught.value) == f"cannot write {tmp_path / 't.csv'}: no file can be made there"

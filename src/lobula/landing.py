@@ -30,16 +30,28 @@ def writing(path: Path, *also: type[Exception]) -> Iterator[None]:
 
 def _reason(error: Exception, path: Path) -> str:
     number = getattr(error, "errno", None)
-    if number == errno.ENOENT:
+    if number == errno.ENOENT and not path.parent.is_dir():
         return f"no such folder {path.parent}"
     known = {
         errno.ENOSPC: "the disk is full",
         errno.EACCES: "no permission",
         errno.EROFS: "the disk is read-only",
         errno.EISDIR: "it is a folder",
+        errno.ENOENT: "no file can be made there",
         errno.ENOTDIR: f"{path.parent} is not a folder",
     }
     return known.get(number or 0) or str(getattr(error, "strerror", None) or error)
+
+
+def make_empty(path: Path) -> None:
+    """Make a file, or empty it; a named pipe that nobody reads holds nobody up.
+
+    Raises
+    ------
+    OutputError : nothing can be written there
+    """
+    with writing(path):
+        os.close(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NONBLOCK, 0o666))
 
 
 def part_of(path: Path, suffix: str | None = None) -> Path:

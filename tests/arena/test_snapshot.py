@@ -45,14 +45,14 @@ def test_a_failed_write_leaves_what_was_there(tmp_path: Path, monkeypatch: pytes
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(np, "savez", full)
-    with pytest.raises(OutputError, match="cannot be written: No space left"):
+    with pytest.raises(OutputError, match=r"cannot write .*state: the disk is full"):
         save_snapshot(tmp_path / "state", {"a": 2})
     assert load_snapshot(tmp_path / "state") == {"a": 1}
     assert [path.name for path in tmp_path.iterdir()] == ["state"]
 
 
 def test_no_such_folder(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match="no/state: cannot be written: No such file"):
+    with pytest.raises(OutputError, match=r"cannot write .*no/state: no such folder"):
         save_snapshot(tmp_path / "no" / "state", {})
 
 

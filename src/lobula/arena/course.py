@@ -113,7 +113,7 @@ class Course:
             try:
                 save_snapshot(self.checkpoint, self.snapshot)
             except OutputError as error:
-                warnings.warn(f"checkpoint {error}; the run goes on", RuntimeWarning, stacklevel=2)
+                warnings.warn(f"checkpoint: {error}; the run goes on", RuntimeWarning, stacklevel=2)
 
     def resume(self, kept: Mapping[str, Any]) -> None:
         """Go on from a snapshot.

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import OutputError, ParameterError
+from ..errors import ParameterError
+from ..landing import whole_file
 
 ARRAY, TUPLE = "#array", "#tuple"
 """Keys that stand for an array, by its number in the file, and for a tuple, in the text that describes the whole, the
@@ -28,21 +29,11 @@ def save_snapshot(path: str | os.PathLike[str], tree: Mapping[str, Any], *, comp
     ParameterError : ``tree`` holds something other than numbers, texts, arrays, lists and dictionaries
     """
     path = Path(path)
-    part = path.with_name(f".{path.name}.part")
     arrays: list[NDArray[Any]] = []
     text = json.dumps(_packed(tree, arrays, "snapshot"))
-    try:
-        try:
-            with part.open("wb") as file:
-                write = np.savez_compressed if compressed else np.savez
-                write(file, np.array(text), *arrays)
-                file.flush()
-                os.fsync(file.fileno())
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise OutputError(f"{path}: cannot be written: {error.strerror or error}") from error
+    with whole_file(path) as temporary, temporary.open("wb") as file:
+        write = np.savez_compressed if compressed else np.savez
+        write(file, np.array(text), *arrays)
 
 
 def load_snapshot(path: str | os.PathLike[str]) -> dict[str, Any]:

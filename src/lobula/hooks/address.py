@@ -1,12 +1,26 @@
-"""Hosts, ports and passwords in a target. Messages name what is allowed and never repeat what may hold a password."""
+"""Files, hosts, ports and passwords in a target. Messages name what is allowed, never what may hold a password."""
 
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import SplitResult, unquote, urlsplit
 
 from ..errors import ParameterError
+
+
+def file_of(target: str, ending: str) -> Path:
+    """Return the file of ``mcap:FILE.mcap``.
+
+    Raises
+    ------
+    ParameterError : no file is named, or one with another ending
+    """
+    scheme, _, name = target.partition(":")
+    if Path(name).suffix.lower() != ending:
+        raise ParameterError(f"hook {target}: must be {scheme}:FILE{ending}")
+    return Path(name)
 
 
 class HostPort(NamedTuple):

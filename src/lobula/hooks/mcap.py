@@ -8,10 +8,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any, cast
 
-from ..errors import MissingExtraError, ParameterError, pip_install
+from ..errors import MissingExtraError, pip_install
 from ..frames.jpeg import Jpeg
 from ..runtime.events import Record
 from . import foxglove_channels as channels
+from .address import file_of
 from .hook import Hook
 from .message import Message, header_told
 from .stream_clock import StreamClock
@@ -33,10 +34,7 @@ def make(target: str) -> Hook:
     ------
     ParameterError : no file is named, or one with another ending
     """
-    name = target.partition(":")[2]
-    if Path(name).suffix.lower() != ".mcap":
-        raise ParameterError(f"hook {target}: must be mcap:FILE.mcap")
-    return Mcap(Path(name))
+    return Mcap(file_of(target, ".mcap"))
 
 
 class Mcap(Hook):

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import time
 from contextlib import suppress
 from pathlib import Path
@@ -11,10 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import MissingExtraError, OutputError, ParameterError, pip_install
+from ..errors import MissingExtraError, pip_install
 from ..frames.jpeg import Jpeg
+from ..landing import make_empty
 from ..runtime.events import Record
 from ..types import NEURONS
+from .address import file_of
 from .hook import TIMEOUT_S, Hook
 from .message import Message, header_told, line
 from .said import said, warns
@@ -38,10 +39,7 @@ def make(target: str) -> Hook:
     ------
     ParameterError : no file is named, or one with another ending
     """
-    name = target.partition(":")[2]
-    if Path(name).suffix.lower() != ".rrd":
-        raise ParameterError(f"hook {target}: must be rerun:FILE.rrd")
-    return Rerun(Path(name))
+    return Rerun(file_of(target, ".rrd"))
 
 
 class Rerun(Hook):
@@ -70,10 +68,7 @@ class Rerun(Hook):
         ------
         OutputError : nothing can be written there
         """
-        try:
-            os.close(os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NONBLOCK, 0o666))
-        except OSError as error:
-            raise OutputError(f"cannot write {self.path}: {error.strerror}") from error
+        make_empty(self.path)
 
     def connect(self, header: Record) -> None:
         """Begin the recording, the first time, with the header and the names of the curves."""

@@ -6,7 +6,7 @@ import os
 from contextlib import suppress
 from pathlib import Path
 
-from ..errors import OutputError
+from ..landing import make_empty
 
 
 class WholeWrites:
@@ -25,10 +25,7 @@ class WholeWrites:
         ------
         OutputError : nothing can be written there
         """
-        try:
-            os.close(os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NONBLOCK, 0o666))
-        except OSError as error:
-            raise OutputError(f"cannot write {self._path}: {error.strerror}") from error
+        make_empty(self._path)
 
     def open(self) -> None:
         """Open the file, which must be there, at its end."""
