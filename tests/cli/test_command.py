@@ -48,7 +48,8 @@ def test_version(call):
         (["run"], "lobula: run: Missing argument 'SOURCE'; see `lobula run --help`"),
         (["run", "x", "--sise", "1"], "lobula: run: No such option"),
         (["run", "x", "--stride", "many"], "lobula: run: Invalid value for '--stride'"),
-        (["config", "shw"], "lobula: config: No such command 'shw'"),
+        (["config", "shw"], "lobula: config: No such command 'shw'. Did you mean 'show'?; see "),
+        (["config", "xyz"], "lobula: config: No such command 'xyz'; must be one of show, init, validate; see "),
     ],
 )
 def test_a_wrong_command_line_is_one_line_and_2(call, arguments, line):

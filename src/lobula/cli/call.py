@@ -13,8 +13,9 @@ from typing import Any, TextIO, cast
 
 import typer
 
-from ..errors import FrameSourceError, LobulaError, OutputError
+from ..errors import LobulaError
 from ..runtime.interrupts import Interrupted, raised_at_once
+from ..runtime.script import exit_code
 
 _ParserError = cast(type[Exception], typer.BadParameter.__mro__[2])
 """What the parser raises for a wrong command line: ``ClickException``, which typer names in no public place."""
@@ -39,7 +40,7 @@ def call(verb: str, arguments: Sequence[str]) -> int:
     warnings.showwarning = _show_warning
     try:
         app: typer.Typer = import_module(f".{verb}", __package__).app
-        command = typer.main.get_command(app)
+        command: Any = typer.main.get_command(app)
         with raised_at_once():
             result = command.main(list(arguments), prog_name=f"lobula {verb}", standalone_mode=False)
         return _flushed(result if isinstance(result, int) else 0)
@@ -50,7 +51,7 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         _silence(sys.stdout)
         return 0
     except LobulaError as error:
-        return _complain(str(error), 3 if _on_the_way(error) else 2)
+        return _complain(str(error), exit_code(error))
     except PermissionError as error:
         if error.filename is None:
             raise
@@ -67,6 +68,8 @@ def call(verb: str, arguments: Sequence[str]) -> int:
         message = re.sub(r"(extra arguments?\S* \(\S+) .+\)$", r"\1 ...)", message)  # a shell's pattern: many names
         if "unexpected extra argument" in message and verb in ("run", "explain"):
             message += '; one SOURCE is read: quote a pattern, as in "shots/*.png"'
+        if message.startswith("No such command") and not message.endswith("?"):
+            message += f"; must be one of {', '.join(command.commands)}"
         return _complain(f"{verb}: {message}; see `lobula {verb} --help`", 2)
 
 
@@ -75,10 +78,6 @@ def _show_warning(
 ) -> None:
     """Say a warning in one line, as everything else."""
     print(f"lobula: {message}", file=sys.stderr)
-
-
-def _on_the_way(error: LobulaError) -> bool:
-    return isinstance(error, OutputError) or (isinstance(error, FrameSourceError) and error.on_the_way)
 
 
 def _complain(message: str, code: int) -> int:

@@ -10,16 +10,15 @@ from __future__ import annotations
 import argparse
 import json
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from .._version import __version__
-from ..errors import LobulaError, OutputError
 from ..landing import whole_file, writing
 from ..model.presets import preset
 from ..params import settings_hash
-from ..runtime.interrupts import Interrupted, raised_at_once
+from ..runtime.script import counter, run_script
 from .choosing import Candidates, choose_apart
 from .contenders import FIXED, WHO, Gathered, gather
 from .groups import folds
@@ -121,48 +120,39 @@ def _chosen(labels: Sequence[Label], name: str, candidates: Candidates, where: s
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run all contenders, print the table, write it; 2 for a wrong request, 3 for a failed output, 130 or 143."""
+    """Run all contenders, write the table, print it, and return the exit code, as ``run_script``."""
     parser = argparse.ArgumentParser(prog=f"python -m lobula.evaluate.{NAME}", description=__doc__)
     parser.add_argument("labels", type=Path, metavar="LABELS.csv", help="what happens in each clip; needs groups")
     parser.add_argument("--clips", type=Path, required=True, metavar="DIR", help="folder of the clips")
     parser.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the table")
     given = parser.parse_args(arguments)
-    try:
-        load_opencv()
-        labels, where = counted(read_labels(given.labels)), f"labels {given.labels}"
-        folds(labels, len(labels), where)  # says now, not after minutes, what cannot be cross-validated
-        with writing(given.out):
-            given.out.mkdir(parents=True, exist_ok=True)
-        with raised_at_once():
-            found = gather(labels, given.clips, _counter(len(labels)))
-        contenders = list(rows(labels, found, where))
-        for ending, text in {
-            "md": table(contenders),
-            "json": json.dumps(document(given.labels, contenders), indent=1, allow_nan=False),
-        }.items():
-            with whole_file(given.out / f"{NAME}.{ending}") as temporary:
-                temporary.write_text(f"{text}\n", encoding="utf-8")
-    except LobulaError as error:
-        print(f"lobula: {error}", file=sys.stderr)
-        return 3 if isinstance(error, OutputError) else 2
-    except Interrupted as stop:
-        print(f"lobula: interrupted ({stop})", file=sys.stderr)
-        return stop.exit_code
+    return run_script(lambda: compare(given.labels, given.clips, given.out), "nothing is written")
+
+
+def compare(file: Path, clips: Path, folder: Path) -> None:
+    """Run all contenders on the clips of a file of labels, write the table into ``folder`` and print it.
+
+    Raises
+    ------
+    MissingExtraError : without OpenCV
+    ParameterError : labels that do not do
+    FrameSourceError : a clip cannot be read
+    OutputError : the table cannot be written
+    """
+    load_opencv()
+    labels, where = counted(read_labels(file)), f"labels {file}"
+    folds(labels, len(labels), where)  # says now, not after minutes, what cannot be cross-validated
+    with writing(folder):
+        folder.mkdir(parents=True, exist_ok=True)
+    found = gather(labels, clips, counter(len(labels), "clips"))
+    contenders = list(rows(labels, found, where))
+    for ending, text in {
+        "md": table(contenders),
+        "json": json.dumps(document(file, contenders), indent=1, allow_nan=False),
+    }.items():
+        with whole_file(folder / f"{NAME}.{ending}") as temporary:
+            temporary.write_text(f"{text}\n", encoding="utf-8")
     print(table(contenders))
-    return 0
-
-
-def _counter(clips: int) -> Callable[[], None]:
-    """Count clips on a terminal; in a pipe be silent."""
-    done = 0
-
-    def step() -> None:
-        nonlocal done
-        done += 1
-        if sys.stderr.isatty():
-            print(f"\r{done} of {clips} clips", end="\n" if done == clips else "", file=sys.stderr, flush=True)
-
-    return step
 
 
 if __name__ == "__main__":

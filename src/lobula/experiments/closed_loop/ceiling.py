@@ -7,7 +7,6 @@ What it misses of 100 % lies in the arena, the turn and the counting, not in a d
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -17,16 +16,14 @@ from typing import Any
 
 from ...arena.scoring import Tally, total
 from ...arena.world import World
-from ...errors import LobulaError, ParameterError
 from ...intervals import Interval
 from ...landing import writing
 from ...report.csv_lines import csv_lines
-from ...runtime.interrupts import Interrupted, raised_at_once
+from ...runtime.script import run_script
+from .arguments import parser, seeds_of
 from .informed import Outcome, Rule, Sight, drive
-from .paper_table import DENSITIES
 from .run_log import note
 from .scan import ScanPlan, write
-from .scan_command import FIRST_SEED, MINUTES, SEEDS
 from .tables import interval_text
 
 NAME = "ceiling"
@@ -148,31 +145,18 @@ def _rows(plan: ScanPlan, outcomes: Outcomes) -> Iterator[dict[str, Any]]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run it from a command line and return the exit code: 0, 2 for a wrong request, 130 or 143."""
-    p = argparse.ArgumentParser(description="What a controller reaches that knows the true places and velocities.")
-    p.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for table and page")
-    p.add_argument("--seeds", type=int, default=SEEDS, metavar="N", help=f"runs of each variant; {SEEDS}")
-    p.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="N", help=f"{FIRST_SEED}, for calibration")
-    p.add_argument("--minutes", type=float, default=MINUTES, metavar="MIN", help=f"simulated, of each run; {MINUTES:g}")
-    p.add_argument("--robots", type=int, nargs="+", default=DENSITIES, metavar="N", help="numbers of robots; 4 7")
+    """Run it from a command line and return the exit code, as ``run_script``."""
+    p = parser("What a controller reaches that knows the true places and velocities.", "table and page")
     given = p.parse_args(arguments)
-    try:
-        if given.seeds < 1:
-            raise ParameterError(f"--seeds {given.seeds}: must be 1 or more")
-        seeds = range(given.first_seed, given.first_seed + given.seeds)
-        plan = ScanPlan(seeds=seeds, minutes=given.minutes, densities=given.robots)
+
+    def measure() -> None:
+        plan = ScanPlan(seeds=seeds_of(given), minutes=given.minutes, densities=given.robots)
         with writing(given.out):
             given.out.mkdir(parents=True, exist_ok=True)
-        with raised_at_once():
-            make(plan, given.out)
-    except LobulaError as error:
-        print(f"lobula: {error}", file=sys.stderr)
-        return 2
-    except Interrupted as stop:
-        print("lobula: interrupted before the page was written: must be run again from the start", file=sys.stderr)
-        return stop.exit_code
-    print(given.out)
-    return 0
+        make(plan, given.out)
+        print(given.out)
+
+    return run_script(measure, "the page is not written: must be run again from the start")
 
 
 if __name__ == "__main__":

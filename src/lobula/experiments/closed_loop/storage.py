@@ -9,24 +9,21 @@ the float build's interval. The seeds are the calibration's; the protocol's tabl
 
 from __future__ import annotations
 
-import argparse
 import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from ...arena.controller import Controller
 from ...arena.network_controller import NetworkController
 from ...arena.scoring import Score, total
 from ...arena.world import World
-from ...errors import LobulaError, ParameterError
 from ...intervals import Interval
 from ...model.network import NetworkParams
 from ...model.presets import NAMES, preset
-from ...runtime.interrupts import Interrupted, raised_at_once
-from ...workers import cores
+from ...runtime.script import counter, run_script
+from .arguments import add_workers, parser, seeds_of
 from .jobs import Control, Job
 from .pool import run_jobs
 
@@ -80,34 +77,21 @@ def _rate(share: float, interval: Interval) -> str:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the comparison and return the exit code: 0, 2 for a wrong request, 130 or 143."""
-    p = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    p.add_argument("--out", type=Path, required=True, metavar="DIR", help="folder for the results of the runs")
+    """Run the comparison and return the exit code, as ``run_script``."""
+    about = (__doc__ or "").partition("\n")[0]
+    p = parser(about, "the results of the runs", first_seed=FIRST_SEED, seeds=SEEDS, minutes=MINUTES)
+    add_workers(p)
     p.add_argument("--preset", default="paper", metavar="NAME", help=f"of {', '.join(NAMES)}; paper")
-    p.add_argument("--seeds", type=int, default=SEEDS, metavar="N", help=f"runs of each; {SEEDS}")
-    p.add_argument("--first-seed", type=int, default=FIRST_SEED, metavar="N", help=f"{FIRST_SEED}, for calibration")
-    p.add_argument("--minutes", type=float, default=MINUTES, metavar="MIN", help=f"simulated, of each run; {MINUTES:g}")
-    p.add_argument("--robots", type=int, nargs="+", default=[4, 7], metavar="N", help="numbers of robots; 4 7")
-    p.add_argument("--workers", type=int, default=cores(), metavar="N", help="processes; one a core")
     given = p.parse_args(arguments)
-    try:
-        if given.seeds < 1:
-            raise ParameterError(f"--seeds {given.seeds}: must be 1 or more")
-        seeds = range(given.first_seed, given.first_seed + given.seeds)
-        with raised_at_once():
-            found = run_jobs(
-                list(jobs(preset(given.preset), given.robots, seeds, given.minutes)), given.out, workers=given.workers
-            )
-    except LobulaError as error:
-        print(f"lobula: {error}", file=sys.stderr)
-        return 2
-    except Interrupted as stop:
-        print(f"lobula: interrupted; the same command goes on from what lies in {given.out}", file=sys.stderr)
-        return stop.exit_code
-    keys = {(done.job.robots, done.job.model) for done in found}
-    scores = {key: total(done.score for done in found if (done.job.robots, done.job.model) == key) for key in keys}
-    print("\n".join(lines(scores)))
-    return 0
+
+    def compare() -> None:
+        wanted = list(jobs(preset(given.preset), given.robots, seeds_of(given), given.minutes))
+        found = run_jobs(wanted, given.out, workers=given.workers, advance=counter(len(wanted), "runs"))
+        keys = {(done.job.robots, done.job.model) for done in found}
+        scores = {key: total(done.score for done in found if (done.job.robots, done.job.model) == key) for key in keys}
+        print("\n".join(lines(scores)))
+
+    return run_script(compare, f"the same command goes on from what lies in {given.out}")
 
 
 if __name__ == "__main__":
