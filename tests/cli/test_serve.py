@@ -224,7 +224,7 @@ class TestBadInput:
             (["broken.npz"], "trace broken.npz: is not a .npz file"),
             (["clip", "--host", "192.0.2.1"], "--host 192.0.2.1, --port 8040: must be an address of this machine"),
             (["clip", "--host", "no such name"], "--host no such name: must be an address or a name of this machine"),
-            (["clip", "--port", "taken"], "is taken: must be a free port, or 0 for any"),
+            (["clip", "--port", "taken"], "taken: must be free, or 0 for any that is"),
             (["clip", "--port", "65536"], "should be less than or equal to 65535"),
             (["clip", "--token", "short"], "token of 5 characters: must be at least 12"),
             (["clip", "--preset", "papr"], "preset 'papr': must be one of"),

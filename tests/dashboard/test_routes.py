@@ -331,7 +331,7 @@ class TestToken:
 
 class TestTheAddress:
     def test_a_port_that_is_taken(self, site):
-        with pytest.raises(ParameterError, match=rf"--port {site.port}: is taken: must be a free port, or 0 for any"):
+        with pytest.raises(ParameterError, match=rf"--port {site.port}: taken: must be free, or 0 for any that is"):
             Site(board(), toml, port=site.port)
 
     def test_a_port_that_is_the_systems(self, monkeypatch):
@@ -339,7 +339,7 @@ class TestTheAddress:
             raise PermissionError(errno.EACCES, "Permission denied")
 
         monkeypatch.setattr(socket.socket, "bind", refuse)
-        with pytest.raises(ParameterError, match="--port 80: may not be used by this user: must be 1024 or above"):
+        with pytest.raises(ParameterError, match="--port 80: not this user's to take: must be 1024 or above"):
             Site(board(), toml, port=80)
 
     def test_an_address_of_another_machine(self):

@@ -114,8 +114,8 @@ def _listen(host: str, port: int) -> socket.socket:
     except OSError as error:
         listener.close()
         reasons = {
-            errno.EADDRINUSE: "is taken: must be a free port, or 0 for any",
-            errno.EACCES: "may not be used by this user: must be 1024 or above",
+            errno.EADDRINUSE: "taken: must be free, or 0 for any that is",
+            errno.EACCES: "not this user's to take: must be 1024 or above",
             errno.EADDRNOTAVAIL: "must be an address of this machine",
         }
         raise ParameterError(f"{where}: {reasons.get(error.errno or 0, error.strerror)}") from error
