@@ -1,4 +1,4 @@
-"""Images in memory go through unchanged."""
+"""Images in memory, and in a file of arrays, go through unchanged."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lobula.frames
-from lobula.errors import ParameterError, ShapeError, TimeError
+from lobula.errors import FrameSourceError, ParameterError, ShapeError, TimeError
 
 IMAGES = np.random.default_rng(0).integers(0, 256, (4, 72, 99), np.uint8)
 
@@ -83,3 +83,44 @@ def test_refuses_times(arguments, error, message):
 def test_refuses_images(images, message):
     with pytest.raises(ShapeError, match=message):
         lobula.frames.open(images)
+
+
+class TestFile:
+    def test_what_numpy_saved(self, tmp_path):
+        np.savez(tmp_path / "a.npz", images=IMAGES, times_s=[0.5, 0.75, 1.0, 2.0])
+        with lobula.frames.open(tmp_path / "a.npz") as frames:
+            assert (frames.name, frames.frame_count, frames.live) == (str(tmp_path / "a.npz"), 4, False)
+            got = list(frames)
+        assert [f.time_s for f in got] == [0.5, 0.75, 1.0, 2.0]
+        np.testing.assert_array_equal(np.stack([f.image for f in got]), IMAGES)
+
+    def test_a_rate_takes_the_place_of_its_times(self, tmp_path):
+        np.savez_compressed(tmp_path / "a.npz", images=IMAGES, times_s=[0.5, 0.75, 1.0, 2.0])
+        with lobula.frames.open(str(tmp_path / "a.npz"), rate_hz=60) as frames:
+            np.testing.assert_allclose([f.time_s for f in frames], np.arange(4) / 60)
+
+    def test_without_times(self, tmp_path):
+        np.savez(tmp_path / "a.npz", images=IMAGES)
+        with lobula.frames.open(tmp_path / "a.npz") as frames:
+            np.testing.assert_allclose([f.time_s for f in frames], np.arange(4) / 30)
+
+    @pytest.mark.parametrize(
+        ("content", "error", "message"),
+        [
+            ({"trace": np.zeros(3)}, FrameSourceError, r"a\.npz: holds no images: must be a file of numpy\.savez with"),
+            ({"images": np.array([None])}, FrameSourceError, r"a\.npz: not such a file: must be"),
+            ({"images": IMAGES[0]}, ShapeError, r"a\.npz: .*must be \(T, H, W\)"),
+            ({"images": IMAGES, "times_s": np.zeros(3)}, ShapeError, r"a\.npz: times_s of shape \(3,\)"),
+            ({"images": IMAGES, "times_s": np.zeros(4)}, TimeError, r"a\.npz: frame 1: time stands still"),
+        ],
+    )
+    def test_refuses_other_arrays(self, content, error, message, tmp_path):
+        np.savez(tmp_path / "a.npz", **content)
+        with pytest.raises(error, match=message):
+            lobula.frames.open(tmp_path / "a.npz")
+
+    @pytest.mark.parametrize("data", [b"", b"no archive", b"PK\x03\x04 cut off"])
+    def test_refuses_other_files(self, data, tmp_path):
+        (tmp_path / "a.npz").write_bytes(data)
+        with pytest.raises(FrameSourceError, match=r"a\.npz: not such a file: must be"):
+            lobula.frames.open(tmp_path / "a.npz")

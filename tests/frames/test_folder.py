@@ -122,8 +122,14 @@ def test_times_file_that_does_not_fit(tmp_path, text, message):
         lobula.frames.open(tmp_path)
 
 
+def test_a_folder_of_videos_is_told_where_it_belongs(tmp_path):
+    (tmp_path / "a.mp4").write_bytes(b"a video")
+    with pytest.raises(FrameSourceError, match=r"no images in it: .* a folder of them is for `lobula batch`"):
+        lobula.frames.open(tmp_path)
+
+
 def test_nothing_there(tmp_path):
-    with pytest.raises(FrameSourceError, match=r"no images in it: must hold \.png"):
+    with pytest.raises(FrameSourceError, match=r"no images in it: must hold \.png.*\.webp files$"):
         lobula.frames.open(tmp_path)
     with pytest.raises(FrameSourceError, match="no file matches"):
         lobula.frames.open(tmp_path / "*.png")

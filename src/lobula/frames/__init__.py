@@ -50,9 +50,9 @@ def open(
 
     Parameters
     ----------
-    source : a video or image file; a folder of images; a pattern such as "shots/*.png"; a ROS bag; "-" for standard
-        input; a camera number (0 or "0"); an address (rtsp://, http://, ...); (T, H, W) images, uint8 or float luma
-        0..255; or an object with ``images`` and ``times_s``
+    source : a video or image file; a folder of images; a pattern such as "shots/*.png"; a ROS bag; a ``.npz`` with
+        ``images`` and ``times_s``; "-" for standard input; a camera number (0 or "0"); an address (rtsp://, http://,
+        ...); (T, H, W) images, uint8 or float luma 0..255; or an object with ``images`` and ``times_s``
     size : (width, height) of the working image
     fit : how a picture of another shape is brought to it: "crop" the middle, "squeeze", or "pad" with grey
     roi : (x, y, width, height), pixels of the picture after rotation and flip
@@ -61,8 +61,8 @@ def open(
     rotate : 0, 90, 180 or 270 degrees clockwise, on top of what the container says
     start_s, end_s : frames with start_s <= time < end_s; time counts from the first picture (arrays: as given)
     stride, max_frames : every stride-th frame; at most so many
-    rate_hz : pictures per second of a folder without times.csv, a raw pipe, a bare stream or an array without times;
-        a request to a camera
+    rate_hz : pictures per second of a folder without times.csv, a raw pipe, a bare stream, an array or a ``.npz``
+        without times; a request to a camera
     times_s : (T,) stamps of an array, seconds
     pixel_format, input_size : layout and (width, height) of a raw pipe's pictures; a request to a camera
     topic : which pictures of a ROS bag; may be left out if it holds one topic with pictures

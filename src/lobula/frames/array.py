@@ -1,15 +1,18 @@
-"""Frames that are in memory already."""
+"""Frames that are in memory already, or in a file of NumPy arrays."""
 
 from __future__ import annotations
 
+import zipfile
+import zlib
 from collections.abc import Iterator, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..checks import require_images, require_later, require_not_unit_range
-from ..errors import ShapeError
+from ..errors import FrameSourceError, ShapeError
 from .selection import Picture
 
 DEFAULT_RATE_HZ = 30.0
@@ -25,9 +28,13 @@ class ArrayReader:
     """
 
     def __init__(
-        self, images: Any, times_s: Sequence[float] | NDArray[Any] | None = None, rate_hz: float | None = None
+        self,
+        images: Any,
+        times_s: Sequence[float] | NDArray[Any] | None = None,
+        rate_hz: float | None = None,
+        name: str = "array",
     ) -> None:
-        self.name = "array"
+        self.name = name
         self._images = require_images(images, (3,), self.name)
         require_not_unit_range(self._images, self.name)
         count = len(self._images)
@@ -52,3 +59,27 @@ class ArrayReader:
 
     def close(self) -> None:
         """Nothing to let go of."""
+
+
+def open_npz(path: str, rate_hz: float | None = None) -> ArrayReader:
+    """Open a ``.npz`` with ``images`` (T, H, W) and, unless ``rate_hz`` is given, their ``times_s`` (T,) if it has any.
+
+    Such a file is what ``lobula stimulus`` writes, or ``np.savez(path, images=images, times_s=times_s)``.
+
+    Raises
+    ------
+    FrameSourceError : it cannot be read, or holds no ``images``
+    ShapeError, TimeError : as ``ArrayReader``
+    """
+    allowed = "must be a file of numpy.savez with images (T, H, W) and, if they have any, times_s (T,)"
+    try:
+        with np.load(Path(path), allow_pickle=False) as file:
+            if "images" not in file:
+                raise FrameSourceError(f"{path}: holds no images: {allowed}")
+            times_s = file["times_s"] if rate_hz is None and "times_s" in file else None
+            images = file["images"]
+    except FrameSourceError:
+        raise
+    except (OSError, ValueError, EOFError, TypeError, zipfile.BadZipFile, zlib.error) as error:
+        raise FrameSourceError(f"{path}: {getattr(error, 'strerror', None) or 'not such a file'}: {allowed}") from error
+    return ArrayReader(images, times_s, rate_hz, path)

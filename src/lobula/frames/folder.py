@@ -52,9 +52,11 @@ def folder_images(folder: Path, timed: bool = True) -> tuple[list[Path], list[fl
     times_file = folder / TIMES_FILE
     if timed and times_file.is_file():
         return _read_times(times_file)
-    files = sorted((path for path in folder.iterdir() if is_image(path)), key=natural_order)
+    there = list(folder.iterdir())
+    files = sorted((path for path in there if is_image(path)), key=natural_order)
     if not files:
-        raise FrameSourceError(f"{folder}: no images in it: must hold {', '.join(IMAGE_ENDINGS)} files")
+        videos = "; a video is a source of its own, and a folder of them is for `lobula batch`" if there else ""
+        raise FrameSourceError(f"{folder}: no images in it: must hold {', '.join(IMAGE_ENDINGS)} files{videos}")
     return files, None
 
 

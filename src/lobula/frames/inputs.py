@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..errors import FrameSourceError, ParameterError
-from .array import ArrayReader
+from .array import ArrayReader, open_npz
 from .interruptible import interruptible
 from .source import Reader
 
-Kind = Literal["file", "folder", "pattern", "pipe", "camera", "address", "array", "bag"]
+Kind = Literal["file", "folder", "pattern", "pipe", "camera", "address", "array", "bag", "file of arrays"]
 
 _TAKES: dict[Kind, tuple[str, ...]] = {
     "file": ("rate_hz",),
@@ -30,6 +30,7 @@ _TAKES: dict[Kind, tuple[str, ...]] = {
     "address": (),
     "array": ("rate_hz", "times_s"),
     "bag": ("topic",),
+    "file of arrays": ("rate_hz",),
 }
 
 BAG_ENDINGS = (".bag", ".db3", ".mcap")
@@ -140,6 +141,8 @@ def kind_of_source(source: Any) -> tuple[Kind, str]:
     if Path(text).is_dir():
         return "bag" if _is_bag(Path(text)) else "folder", text
     if Path(text).exists():
+        if Path(text).suffix == ".npz":
+            return "file of arrays", text
         return "bag" if Path(text).suffix in BAG_ENDINGS else "file", text
     if glob.has_magic(text):
         return "pattern", text
@@ -148,6 +151,8 @@ def kind_of_source(source: Any) -> tuple[Kind, str]:
 
 def _recorded(kind: Kind, where: str, options: InputOptions) -> Reader:
     """Open a source that is not live; PyAV is imported here, when it is needed."""
+    if kind == "file of arrays":
+        return open_npz(where, options.rate_hz)
     if kind == "bag":
         from .bag import open_bag
 
