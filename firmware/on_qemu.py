@@ -29,7 +29,7 @@ import lobula
 from lobula.arena.network_controller import NetworkController
 from lobula.arena.simulation import Simulation
 from lobula.arena.world import World
-from lobula.export.folder import c_folder
+from lobula.export import STACK, c_folder
 from lobula.types import NEURONS
 
 HERE = Path(__file__).parent
@@ -39,7 +39,9 @@ TOOLS = {
 }
 WIDTH, HEIGHT, RATE_HZ = 99, 72, 30.0
 CYCLES_PER_INSTRUCTION, CLOCK_HZ = 1.5, 180e6
-LIMITS = {"RAM, bytes": 192 * 1024, "flash, bytes": 64 * 1024, "instructions a frame": 4_000_000}
+LIMITS = {
+    "RAM, bytes": 192 * 1024, "stack, bytes": STACK, "flash, bytes": 64 * 1024, "instructions a frame": 4_000_000,
+}  # fmt: skip
 MOST_DIFFERENT = 0.001
 
 HEAD = np.dtype([(n, "<u4") for n in ("state_bytes", "stack_bytes", "loop_counted", "loop_true", "init_counted")])

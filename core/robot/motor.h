@@ -31,6 +31,9 @@ extern "C" {
 #define LOBULA_MOTOR_HIGH_DEG 180.0f /* largest turn */
 #endif
 
+/* where this does not compile: a turn takes time, LOBULA_MOTOR_TURN_MS must be 1 or more */
+typedef char lobula_motor_turn_ms_is_1_or_more[(int)(LOBULA_MOTOR_TURN_MS) >= 1 ? 1 : -1];
+
 typedef enum {
     LOBULA_MOTOR_FORWARD,
     LOBULA_MOTOR_STOP,

@@ -1,4 +1,4 @@
-/* What the C tests share: a check that says where and what, memory as the core wants it, and one set of settings. */
+/* What the tests of the laptop's core share: memory as the core wants it, and one set of settings. */
 #ifndef LOBULA_TESTS_CHECK_H
 #define LOBULA_TESTS_CHECK_H
 
@@ -8,15 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check_macro.h"
 #include "lobula.h"
-
-#define CHECK(condition, message)                                                                     \
-    do {                                                                                              \
-        if (!(condition)) {                                                                           \
-            fprintf(stderr, "%s:%d: %s: not so: %s\n", __FILE__, __LINE__, message, #condition);          \
-            abort();                                                                                  \
-        }                                                                                             \
-    } while (0)
 
 /* Aligned memory of exactly `bytes`, full of 0xa5: what reads before it writes gives itself away. */
 static inline void *memory(size_t bytes) {

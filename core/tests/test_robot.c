@@ -4,15 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "check_macro.h"
 #include "lobula.h"
-
-#define CHECK(condition, message)                                                            \
-    do {                                                                                     \
-        if (!(condition)) {                                                                  \
-            fprintf(stderr, "%s:%d: %s: not so: %s\n", __FILE__, __LINE__, message, #condition); \
-            abort();                                                                         \
-        }                                                                                    \
-    } while (0)
 
 static const float TICK_MS = 1000.0f / 30.0f;
 

@@ -79,13 +79,18 @@ def test_force_brings_a_project_up_to_date_and_leaves_its_own_files(call, tmp_pa
     folder = tmp_path / "robot"
     (folder / "main.c").write_text("int main(void) { return 0; }\n")
     (folder / "mine.c").write_text("\n")
+    (folder / "notes.md").write_text("\n")
     (folder / "lobula.h").write_text("damaged")
     done = call("export", "c", "--out", "robot", "--size", "32x24", "--force")
     assert done.code == 0
-    assert done.err.endswith(" of memory; main.c is as it was\n")
+    assert done.err.endswith(
+        " of memory; main.c is as it was\n"
+        "robot/mine.c: not of this export, left as it is: yours, or of an older lobula and to be removed\n"
+    )
     done = call("export", "c", "--out", "robot", "--size", "64x48", "--force", "--json")
     assert done.code == 0
     assert not {"main.c", "mine.c"} & set(done.document["files"])
+    assert done.document["other_sources"] == ["mine.c"]
     assert (folder / "main.c").read_text() == "int main(void) { return 0; }\n"
     assert "lobula_step" in (folder / "lobula.h").read_text()
     assert "#define LOBULA_WIDTH 64\n" in (folder / "lobula_config.h").read_text()
@@ -117,7 +122,7 @@ def test_too_little_memory_is_refused_with_the_numbers(call, tmp_path):
     done = call("export", "c", "--size", "320x240", "--ram", "192", "--out", "robot")
     assert done.code == 2
     found = re.fullmatch(
-        r"lobula: --ram 192: 320 x 240 px need ([\d.]+) KiB with these settings: "
+        r"lobula: --ram 192: 320 x 240 px need ([\d.]+) KiB with these settings, 2.5 KiB of stack among it: "
         r"the largest of this shape that fits is (\d+) x (\d+)\n", done.err,
     )  # fmt: skip
     assert found
@@ -134,7 +139,8 @@ def test_a_board_that_is_too_small_for_anything(call):
     done = call("export", "c", "--ram", "8", "--out", "robot")
     assert done.code == 2
     assert re.fullmatch(
-        r"lobula: --ram 8: 99 x 72 px need [\d.]+ KiB with these settings: none of this shape fits; "
+        r"lobula: --ram 8: 99 x 72 px need [\d.]+ KiB with these settings, 2.5 KiB of stack among it: "
+        r"none of this shape fits; "
         r"the least there is, 32 x 24, needs [\d.]+ KiB\n", done.err,
     )  # fmt: skip
 
@@ -147,7 +153,11 @@ def test_a_file_in_the_way(call, tmp_path):
 
 @pytest.mark.parametrize(
     ("asked", "words"),
-    [([], "Missing command"), (["rust"], "No such command 'rust'"), (["c"], "Missing option '--out'")],
+    [
+        ([], "Missing command"),
+        (["rust"], "No such command 'rust'; must be one of c;"),
+        (["c"], "Missing option '--out'"),
+    ],
 )
 def test_a_command_line_that_says_too_little(call, asked, words):
     done = call("export", *asked)

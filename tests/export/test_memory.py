@@ -5,7 +5,7 @@ import subprocess
 import pytest
 
 from lobula.errors import ParameterError
-from lobula.export import c_folder, largest_size, require_ram, state_bytes
+from lobula.export import STACK, c_folder, largest_size, require_ram, state_bytes
 from lobula.model.presets import preset
 from lobula.params import with_settings
 
@@ -45,6 +45,13 @@ def test_the_papers_picture_fits_the_papers_robot():
         require_ram(preset(name), 99, 72, 192)  # of its 256 KB
 
 
+def test_the_stack_counts():
+    bytes_alone = state_bytes(preset(), 99, 72)
+    require_ram(preset(), 99, 72, (bytes_alone + STACK) / 1024)
+    with pytest.raises(ParameterError, match=r"99 x 72 px need .* settings, 2\.5 KiB of stack among it: "):
+        require_ram(preset(), 99, 72, (bytes_alone + STACK - 1) / 1024)
+
+
 @pytest.mark.parametrize("shape", [(320, 240), (99, 72), (400, 100), (64, 64)])
 @pytest.mark.parametrize("ram_kib", [60, 100.5, 192, 1000])
 def test_the_largest_that_fits_fits_and_the_next_does_not(shape, ram_kib):
@@ -53,9 +60,9 @@ def test_the_largest_that_fits_fits_and_the_next_does_not(shape, ram_kib):
     width, height = found or (31, 0)
     if found:
         assert height == round(width * ratio) >= 24
-        assert state_bytes(params, width, height) <= 1024 * ram_kib
+        assert state_bytes(params, width, height) + STACK <= 1024 * ram_kib
     wider = next(w for w in range(width + 1, 1000) if round(w * ratio) >= 24)
-    assert wider > shape[0] or state_bytes(params, wider, round(wider * ratio)) > 1024 * ram_kib
+    assert wider > shape[0] or state_bytes(params, wider, round(wider * ratio)) + STACK > 1024 * ram_kib
 
 
 def test_no_size_of_a_shape_that_is_too_flat():

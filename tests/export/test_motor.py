@@ -90,3 +90,11 @@ def test_left_is_the_arenas_left(core, motor):
     track_cm = World().robots.track_cm
     core.lobula_motor_wheels(ctypes.byref(motor), 8.0, track_cm, wheels)
     assert (wheels[1] - wheels[0]) / track_cm == pytest.approx(math.radians(90), rel=1e-6)
+
+
+@pytest.mark.parametrize("turn_ms", ["0", "0.5f", "-800.0f"])
+def test_a_turn_in_no_time_does_not_compile(turn_ms, compiler, tmp_path):
+    command = [compiler, "-std=c99", f"-DLOBULA_MOTOR_TURN_MS={turn_ms}", "-c", ROBOT / "motor.c"]
+    done = subprocess.run([*command, "-o", tmp_path / "motor.o"], capture_output=True, text=True, check=False)
+    assert done.returncode != 0
+    assert "lobula_motor_turn_ms_is_1_or_more" in done.stderr

@@ -59,17 +59,21 @@ def c(
     if kept:
         del files[EXAMPLE]
     _write(out, files)
+    others = sorted(p.name for p in out.iterdir() if p.suffix in (".c", ".h") and p.name not in (*files, EXAMPLE))
     needed = state_bytes(chosen.params, width, height)
     if json:
         print_json({
             "folder": str(out), "files": sorted(files), "preset": chosen.preset,
             "settings_hash": settings_hash(chosen.params), "width": width, "height": height, "state_bytes": needed,
+            "other_sources": others,
         })  # fmt: skip
     else:
         say(
             f"{out}: {len(files)} files, preset {chosen.preset}, {width} x {height} px, {in_kib(needed)} of memory; "
             + (f"{EXAMPLE} is as it was" if kept else f"start with {out / 'README.md'}")
         )
+        for name in others:
+            say(f"{out / name}: not of this export, left as it is: yours, or of an older lobula and to be removed")
 
 
 def _short(value: Any) -> str:

@@ -2,6 +2,6 @@
 
 from .config_header import config_header
 from .folder import EXAMPLE, c_folder
-from .memory import in_kib, largest_size, require_ram, state_bytes
+from .memory import STACK, in_kib, largest_size, require_ram, state_bytes
 
-__all__ = ["EXAMPLE", "c_folder", "config_header", "in_kib", "largest_size", "require_ram", "state_bytes"]
+__all__ = ["EXAMPLE", "STACK", "c_folder", "config_header", "in_kib", "largest_size", "require_ram", "state_bytes"]

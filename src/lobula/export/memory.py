@@ -21,6 +21,10 @@ WAY_IN = 24
 """Bytes of ``lobula_state`` beside that memory: the time, and three numbers of the frame that comes in."""
 
 
+STACK = 2560
+"""Bytes of stack that a step takes at most; ``make firmware-test`` measures it on a Cortex-M4F, and fails above it."""
+
+
 def require_size(width: int, height: int) -> None:
     """Check the size of the picture.
 
@@ -42,7 +46,7 @@ def state_bytes(params: NetworkParams, width: int, height: int) -> int:
 
 
 def require_ram(params: NetworkParams, width: int, height: int, ram_kib: float) -> None:
-    """Check that the network fits into ``ram_kib`` KiB.
+    """Check that the network and the stack that it needs fit into ``ram_kib`` KiB.
 
     Raises
     ------
@@ -50,23 +54,26 @@ def require_ram(params: NetworkParams, width: int, height: int, ram_kib: float) 
     """
     if not (math.isfinite(ram_kib) and ram_kib > 0):
         raise ParameterError(f"--ram {ram_kib:g}: must be a number of KiB above 0")
-    needed = state_bytes(params, width, height)
+    needed = state_bytes(params, width, height) + STACK
     if needed <= ram_kib * 1024:
         return
     fits = largest_size(params, width, height, ram_kib)
     if fits is not None:
         rest = f"the largest of this shape that fits is {fits[0]} x {fits[1]}"
     else:
-        least = state_bytes(params, MIN_WIDTH, MIN_HEIGHT)
+        least = state_bytes(params, MIN_WIDTH, MIN_HEIGHT) + STACK
         rest = f"none of this shape fits; the least there is, {MIN_WIDTH} x {MIN_HEIGHT}, needs {in_kib(least)}"
-    raise ParameterError(f"--ram {ram_kib:g}: {width} x {height} px need {in_kib(needed)} with these settings: {rest}")
+    raise ParameterError(
+        f"--ram {ram_kib:g}: {width} x {height} px need {in_kib(needed)} with these settings, {in_kib(STACK)} of stack "
+        f"among it: {rest}"
+    )
 
 
 def largest_size(params: NetworkParams, width: int, height: int, ram_kib: float) -> tuple[int, int] | None:
-    """Return the largest (width, height) of the shape of ``width`` x ``height`` that fits, None where none does."""
+    """Return the largest (width, height) of that shape that fits with its stack, None where none does."""
     sizes = [(columns, round(columns * height / width)) for columns in range(MIN_WIDTH, width + 1)]
     sizes = [size for size in sizes if size[1] >= MIN_HEIGHT]
-    fitting = bisect_right(sizes, ram_kib * 1024, key=lambda size: state_bytes(params, *size))
+    fitting = bisect_right(sizes, ram_kib * 1024 - STACK, key=lambda size: state_bytes(params, *size))
     return sizes[fitting - 1] if fitting else None
 
 
