@@ -78,16 +78,15 @@ def _refuse(what: str, given: dict[str, Any]) -> None:
 
 
 def _plan(count: int | None, quick: bool, preset: str | None) -> Plan:
-    from ..experiments.paper.figure import Plan
-    from ..experiments.paper.reproduction import QUICK_SEEDS, QUICK_SIDE_SEEDS, SEEDS, SIDE_SEEDS, seeds
+    from ..experiments.paper.figure import PRESETS, QUICK_SEEDS, QUICK_SIDE_SEEDS, SEEDS, SIDE_SEEDS, Plan
+    from ..experiments.paper.reproduction import seeds
     from ..model.presets import BASES
     from ..model.presets import preset as named_preset
 
-    names = ("paper", "published")
     if preset is not None and preset not in BASES:
-        raise ParameterError(f"--preset {preset}: must be one of {', '.join(names)}")
+        raise ParameterError(f"--preset {preset}: must be one of {', '.join(PRESETS)}")
     return Plan(
-        presets={name: named_preset(name) for name in (names if preset is None else (preset,))},
+        presets={name: named_preset(name) for name in (PRESETS if preset is None else (preset,))},
         seeds=seeds(count if count is not None else QUICK_SEEDS if quick else SEEDS),
         side_seeds=QUICK_SIDE_SEEDS if quick else SIDE_SEEDS,
     )

@@ -63,10 +63,23 @@ def test_the_page_shows_every_claim_with_its_numbers(found, trials) -> None:
     assert all(len(line) <= 120 for line in text.splitlines() if line[:1] not in "|#!")
 
 
+@pytest.mark.parametrize(
+    ("plan", "options"),
+    [
+        (Plan(presets=dict.fromkeys(("paper", "published")), seeds=range(10)), ""),
+        (Plan(presets=dict.fromkeys(("paper", "published")), seeds=range(2), side_seeds=1), " --quick"),
+        (Plan(presets=dict.fromkeys(("paper", "published")), seeds=range(3), side_seeds=1), " --quick --seeds 3"),
+        (Plan(presets={"published": None}, seeds=range(4)), " --seeds 4 --preset published"),
+    ],
+)
+def test_the_command_is_the_one_that_makes_it_so(plan, options) -> None:
+    assert plan.command("fig5") == f"lobula reproduce fig5 --out DIR{options}"
+
+
 def test_gathered_claim_by_claim(found) -> None:
     other = found | {"figure": "table1", "title": "Closed loop", "command": "lobula reproduce table1 --out DIR"}
     text = as_text(gathered_page([found, other], "paper/"))
-    assert "| Fig. 5: Spikes at three speeds | `lobula reproduce fig5 --out DIR` | `paper`: " in text
+    assert "| Fig. 5: Spikes at three speeds | `lobula reproduce fig5 --out DIR --preset paper` | `paper`: " in text
     assert "## Table 1\n" in text
     assert "](paper/fig5.png)" in text
     assert "](paper/table1.md)" in text

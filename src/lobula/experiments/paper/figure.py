@@ -21,6 +21,11 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawing
 
 
+SEEDS, SIDE_SEEDS = 10, 5
+QUICK_SEEDS, QUICK_SIDE_SEEDS = 2, 1
+PRESETS = ("paper", "published")
+
+
 @dataclass(frozen=True, kw_only=True)
 class Plan:
     """What is run: the presets by name, the seeds, the arena and the courses.
@@ -30,9 +35,20 @@ class Plan:
 
     presets: Mapping[str, NetworkParams]
     seeds: Sequence[int]
-    side_seeds: int = 5
+    side_seeds: int = SIDE_SEEDS
     world: World = field(default_factory=World)
     courses: CourseParams = field(default_factory=CourseParams)
+
+    def command(self, name: str) -> str:
+        """Return what makes the figure ``name`` so, as it is typed."""
+        words, usual = ["lobula", "reproduce", name, "--out", "DIR"], SEEDS
+        if self.side_seeds == QUICK_SIDE_SEEDS:
+            words, usual = [*words, "--quick"], QUICK_SEEDS
+        if len(self.seeds) != usual:
+            words += ["--seeds", str(len(self.seeds))]
+        if tuple(self.presets) != PRESETS:
+            words += ["--preset", *self.presets]
+        return " ".join(words)
 
 
 @dataclass(frozen=True, kw_only=True)

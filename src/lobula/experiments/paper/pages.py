@@ -53,7 +53,7 @@ def document(figure: PaperFigure, plan: Plan, verdicts: Sequence[Verdict], scene
         "version": __version__,
         "figure": figure.name,
         "title": figure.title,
-        "command": f"lobula reproduce {figure.name} --out DIR",
+        "command": plan.command(figure.name),
         "presets": {name: settings_hash(params) for name, params in plan.presets.items()},
         "scene_hash": scene_hash,
         "seeds": list(plan.seeds),

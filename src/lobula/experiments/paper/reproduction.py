@@ -29,8 +29,6 @@ ORDER = (*FIGURES, "table1")
 
 FIRST_SEED = 201
 """Seeds below were used while set-ups and rules were chosen, or are left to calibration."""
-SEEDS, SIDE_SEEDS = 10, 5
-QUICK_SEEDS, QUICK_SIDE_SEEDS = 2, 1
 
 
 def seeds(count: int) -> range:
