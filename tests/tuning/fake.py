@@ -58,7 +58,7 @@ class FakeTask:
 
     @property
     def objectives(self):
-        return tuple(Objective(name, "minimize", "") for name in ("first", "second"))
+        return tuple(Objective(name, "minimize", f"how far the {name} is off") for name in ("first", "second"))
 
     def measure(self, params, names):
         with self.asked.open("a") as file:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import multiprocessing
+from dataclasses import replace
 
 import pytest
 
@@ -12,6 +13,8 @@ from lobula.errors import OutputError, ParameterError
 from lobula.runtime.interrupts import Interrupted
 from lobula.tuning.identity import identity, require_same
 from lobula.tuning.journal import JOURNAL, ROUND, Search, opened
+from lobula.tuning.plan import Scored
+from lobula.tuning.results import worse_held_out
 from lobula.tuning.search import tune
 
 from .fake import PLANTED, FakeTask, asked, fake_task, folded_task, plan
@@ -61,6 +64,16 @@ class TestFinding:
         assert second == pytest.approx(0.003, rel=0.25)
         assert whole.best.merit > -0.35
         assert whole.preset.values == pytest.approx((0.734, 0.470), abs=1e-3)  # ln(0.01 / 0.0048), ln(0.0048 / 0.003)
+
+    def test_it_is_told_where_the_best_does_worse_on_what_was_held_out(self, whole):
+        def told(ours, its):
+            held_out = {whole.best.number: Scored(ours, {})}
+            return worse_held_out(replace(whole, held_out=held_out, preset_held_out=Scored(its, {})))
+
+        assert told((0.5, 0.2), (0.5, 0.3)) == []
+        assert told((0.5, 0.2), (0.4, 0.3)) == ["how far the first is off, 0.5 against 0.4"]
+        assert len(told((0.5, 0.4), (0.4, 0.3))) == 2
+        assert worse_held_out(replace(whole, held_out={}, preset_held_out=None)) == []
 
     def test_the_first_trial_is_what_it_begins_with(self, whole):
         assert whole.trials["only"][0].values == dict.fromkeys(PLANTED, 0.0048)

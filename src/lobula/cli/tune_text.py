@@ -82,12 +82,17 @@ def _number(value: object) -> str:
 
 
 def _remarks(found: Found) -> list[str]:
+    from ..tuning.results import worse_held_out
+
     speed, lines = found.speed, []
     given_up = sum(bool(trial.problem) for some in found.trials.values() for trial in some)
     if found.plan.settings(found.best) == found.plan.base:
         lines.append("nothing better was found than the settings it began with")
     if given_up:
         lines.append(f"{counted(given_up, 'trial')} could not be measured: see trials.csv")
+    worse = worse_held_out(found)
+    if worse:
+        lines.append(f"held out, what is called best does worse than the preset in: {'; '.join(worse)}")
     if found.preset_held_out is None:
         lines.append("NOT HELD OUT: the score is of the very clips that were searched on; it says nothing about others")
     if speed.trials_per_s is not None and speed.times_real_time is not None:

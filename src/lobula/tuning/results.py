@@ -94,6 +94,18 @@ def held_out_of(found: Found, trial: Trial) -> Scored | None:
     return found.held_out.get(trial.number) or (found.cross_validated if trial == found.best else None)
 
 
+def worse_held_out(found: Found) -> list[str]:
+    """Return in which objectives the best did worse on what was held out than the settings it began with, in words."""
+    now, before = held_out_of(found, found.best), found.preset_held_out
+    if now is None or before is None:
+        return []
+    return [
+        f"{objective.meaning}, {ours:.3g} against {its:.3g}"
+        for objective, ours, its in zip(found.plan.task.objectives, now.values, before.values, strict=True)
+        if (ours > its if objective.direction == "minimize" else ours < its)
+    ]
+
+
 def rows(found: Found) -> Iterable[Sequence[Any]]:
     """Yield the lines of the table: a heading, then every trial of every search."""
     names = [objective.name for objective in found.plan.task.objectives]
