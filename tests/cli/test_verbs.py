@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
+import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -162,6 +164,10 @@ class TestDoctor:
         missing = call("doctor", "--json").document["missing"]
         command = 'pip install "lobula[parquet]" (from a clone: pip install ".[parquet]")'
         assert f"traces in .parquet: {command}" in missing
+
+    def test_it_knows_every_extra(self):
+        project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
+        assert {*doctor.EXTRAS, "test", "dev"} == set(project["optional-dependencies"])
 
     def test_no_core(self, call, monkeypatch):
         monkeypatch.setattr(library, "available", lambda: False)
