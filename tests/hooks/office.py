@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import signal
+import subprocess
+import sys
+import textwrap
 import threading
 import time
 
@@ -50,6 +54,29 @@ def delivered(hook, *records, readings=()):
     office.close(SUMMARY)
     (tally,) = office.tallies()
     return tally
+
+
+def killed_while_running(target, when=lambda: True):
+    """Have another process send 100 readings and START to ``target``; kill it once they are sent and ``when()`` is."""
+    program = f"""
+        import time
+        from lobula.hooks import make_hook
+        from tests.hooks.office import START, opened, reading, wait_until
+        office = opened(make_hook({str(target)!r}))
+        for index in range(100):
+            office.frame(index, reading(index / 30), None)
+        office.event(START)
+        wait_until(lambda: office.tallies()[0]["sent"] == 101)
+        print("told", flush=True)
+        time.sleep(60)
+    """
+    command = [sys.executable, "-c", textwrap.dedent(program)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout.readline() == "told\n"
+            wait_until(when)
+        finally:
+            process.send_signal(signal.SIGKILL)
 
 
 class Scripted(Hook):

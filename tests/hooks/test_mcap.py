@@ -7,11 +7,7 @@ import errno
 import io
 import json
 import os
-import signal
 import struct
-import subprocess
-import sys
-import textwrap
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +17,7 @@ from lobula.errors import OutputError, ParameterError
 from lobula.frames.stills import read_still
 from lobula.hooks import make_hook
 
-from .office import END, HEADER, START, SUMMARY, delivered, event, opened, reading, wait_until
+from .office import END, HEADER, START, SUMMARY, delivered, event, killed_while_running, opened, reading
 
 pytest.importorskip("mcap", reason="needs mcap (30 MB with its compressors), the extra mcap")
 from mcap.exceptions import EndOfFile
@@ -155,23 +151,7 @@ def test_cut_off_anywhere_it_can_be_read_up_to_the_last_chunk(tmp_path):
 
 def test_killed_while_running(tmp_path):
     path = tmp_path / "a.mcap"
-    program = f"""
-        import time
-        from lobula.hooks import make_hook
-        from tests.hooks.office import START, opened, reading
-        office = opened(make_hook("mcap:{path}"))
-        for index in range(100):
-            office.frame(index, reading(index / 30), None)
-        office.event(START)
-        print("told", flush=True)
-        time.sleep(60)
-    """
-    process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(program)], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "told\n"
-    wait_until(lambda: "/lobula/event" in salvaged(path.read_bytes()))
-    process.send_signal(signal.SIGKILL)
-    process.wait(30)
-    process.stdout.close()
+    killed_while_running(f"mcap:{path}", lambda: "/lobula/event" in salvaged(path.read_bytes()))
     found = salvaged(path.read_bytes())
     assert [r["frame"] for r in found["/lobula/reading"]] == list(range(100))
     assert found["/lobula/event"][0].items() >= START.items()

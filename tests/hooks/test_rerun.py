@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
-import textwrap
 
 import numpy as np
 import pytest
@@ -14,7 +12,7 @@ import pytest
 from lobula.errors import OutputError, ParameterError
 from lobula.hooks import make_hook
 
-from .office import END, START, SUMMARY, delivered, opened, reading
+from .office import END, START, SUMMARY, delivered, killed_while_running, opened, reading
 
 pytest.importorskip("rerun", reason="needs rerun-sdk (500 MB), the extra rerun")
 from rerun.chunk import RrdReader
@@ -66,23 +64,7 @@ def test_a_few_pictures_a_second_as_jpeg(tmp_path):
 
 def test_killed_while_running(tmp_path):
     path = tmp_path / "a.rrd"
-    program = f"""
-        import time
-        from lobula.hooks import make_hook
-        from tests.hooks.office import START, opened, reading, wait_until
-        office = opened(make_hook("rerun:{path}"))
-        for index in range(100):
-            office.frame(index, reading(index / 30), None)
-        office.event(START)
-        wait_until(lambda: office.tallies()[0]["sent"] == 101)
-        print("told", flush=True)
-        time.sleep(60)
-    """
-    process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(program)], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "told\n"
-    process.send_signal(signal.SIGKILL)
-    process.wait(30)
-    process.stdout.close()
+    killed_while_running(f"rerun:{path}")
     printed = subprocess.run(
         [sys.executable, "-m", "rerun", "rrd", "print", "-vvv", path],
         capture_output=True, text=True, check=True, env={**os.environ, "HOME": str(tmp_path)},

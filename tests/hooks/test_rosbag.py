@@ -3,11 +3,7 @@
 from __future__ import annotations
 
 import io
-import signal
 import sqlite3
-import subprocess
-import sys
-import textwrap
 
 import av
 import numpy as np
@@ -17,7 +13,7 @@ from lobula.errors import OutputError, ParameterError
 from lobula.hooks import make_hook
 from lobula.types import NEURONS
 
-from .office import END, START, SUMMARY, delivered, event, opened, reading, wait_until
+from .office import END, START, SUMMARY, delivered, event, killed_while_running, opened, reading
 
 pytest.importorskip("rosbags", reason="needs rosbags (22 MB with what it needs), the extra rosbags")
 from rosbags.highlevel import AnyReader
@@ -88,24 +84,9 @@ def test_a_few_pictures_a_second_as_jpeg(tmp_path):
 
 def test_killed_while_running(tmp_path):
     path = tmp_path / "bag"
-    program = f"""
-        import time
-        from lobula.hooks import make_hook
-        from tests.hooks.office import START, opened, reading
-        office = opened(make_hook("rosbag:{path}"))
-        for index in range(100):
-            office.frame(index, reading(index / 30), None)
-        office.event(START)
-        print("told", flush=True)
-        time.sleep(60)
-    """
-    process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(program)], stdout=subprocess.PIPE, text=True)
-    assert process.stdout.readline() == "told\n"
     file = path / "bag.db3"
-    wait_until(lambda: file.exists() and committed(file) == 202)  # two arrays a reading; status and alarm
-    process.send_signal(signal.SIGKILL)
-    process.wait(30)
-    process.stdout.close()
+    # two arrays a reading; status and alarm
+    killed_while_running(f"rosbag:{path}", lambda: file.exists() and committed(file) == 202)
     assert len(messages(file)["/lobula/potentials"]) == 100
 
 

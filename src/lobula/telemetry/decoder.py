@@ -6,6 +6,7 @@ from .framing import LONGEST_PAYLOAD, payload_of
 from .messages import ForeignFrameError, RobotHello, RobotReading, message_of
 
 _LONGEST_BLOCK = LONGEST_PAYLOAD + 4
+_MOST_NOTES = 8
 
 
 class Decoder:
@@ -51,6 +52,3 @@ class Decoder:
     def _note(self, text: str) -> None:
         if text not in self.notes and len(self.notes) < _MOST_NOTES:
             self.notes.append(text)
-
-
-_MOST_NOTES = 8
