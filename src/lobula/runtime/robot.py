@@ -15,7 +15,7 @@ from ..errors import FrameSourceError
 from ..frames.reconnect import KEPT_NEWS, News, Reconnecting
 from ..frames.selection import Picture, Selection
 from ..frames.timeline import Timeline
-from ..telemetry import Action, Place, Port, RobotHello, RobotReading, SerialLine, Succession
+from ..telemetry import Action, Port, RobotHello, RobotReading, SerialLine, Succession
 from ..types import Reading
 from .robot_link import RobotLink
 
@@ -232,7 +232,8 @@ class RobotStream:
                 continue
             if place.restarted:
                 timeline.connect()
-            time_s = self._time_s(timeline, place, picture)
+            assert picture.arrived_s is not None  # a link stamps what it reads
+            time_s = timeline.place(place.stamp_s, picture.arrived_s)
             if time_s is None:
                 self._overtaken += 1
                 continue
@@ -240,12 +241,6 @@ class RobotStream:
                 with self._changed:
                     self._waiting.append(News("restarted", time.monotonic(), {}, connection))
             yield replace(picture, time_s=time_s, index=place.number)
-
-    @staticmethod
-    def _time_s(timeline: Timeline, place: Place, picture: Picture) -> float | None:
-        arrived_s = picture.arrived_s
-        assert arrived_s is not None
-        return timeline.place(place.stamp_s, arrived_s)
 
 
 def _in_place(picture: Picture) -> RobotFrame:
