@@ -128,6 +128,24 @@ def test_a_source_that_goes_away_ends_its_clip(tmp_path):
     assert clips(tmp_path) == [list(range(20, 34))]
 
 
+def test_a_pause_of_hours_ends_a_clip(tmp_path):
+    """Too long for an MP4, in the middle of an alarm; the clip of the next alarm holds nothing from before it."""
+    sink = KeptClips(tmp_path, 1.0, 0.5)
+    sink.open(HEADER)
+    late = 10 * 30_000
+    alarms = [(30, late + 5), (late + 32, late + 35)]
+    assert told(sink, [*range(40), *range(late, late + 60)], alarms) == []
+    assert clips(tmp_path) == [list(range(20, 40)), list(range(late + 20, late + 41))]
+
+
+def test_an_alarm_right_after_a_pause_of_hours(tmp_path):
+    late = 10 * 30_000
+    sink = KeptClips(tmp_path, 1.0, 0.5)
+    sink.open(HEADER)
+    assert told(sink, [*range(40), *range(late, late + 30)], [(late, late + 3)]) == []
+    assert clips(tmp_path) == [list(range(late, late + 9))]
+
+
 def test_a_killed_run_leaves_a_clip_that_plays(tmp_path):
     sink = KeptClips(tmp_path, 1.0, 3.0)
     sink.open(HEADER)

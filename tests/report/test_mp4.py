@@ -1,5 +1,7 @@
 """The MP4: what a browser plays, at the times it was given, checked before it is there."""
 
+import itertools
+import math
 import struct
 from pathlib import Path
 
@@ -8,6 +10,7 @@ import numpy as np
 import pytest
 
 from lobula.errors import OutputError, ShapeError
+from lobula.report.h264 import H264Encoder
 from lobula.report.mp4 import Mp4Writer, check_h264
 
 TIMES_S = [10.0, 10.04, 10.05, 10.3, 11.0, 11.0333]  # uneven on purpose
@@ -72,6 +75,49 @@ def test_same_tick_moves_on_by_one(tmp_path: Path) -> None:
         assert [frame.pts for frame in container.decode(video=0)] == [0, 1, 2]
 
 
+LIMIT_S = (2**31 - 1) / 90_000  # from here on, 6.6 h, FFmpeg sets the stamps itself
+
+
+@pytest.mark.parametrize("pause_s", [20_000.0, LIMIT_S - 1 / 90_000, LIMIT_S, 30_000.0, 86_400.0, 31 * 86_400.0])
+def test_a_pause_of_any_length_is_a_still_picture(tmp_path: Path, pause_s: float) -> None:
+    times_s = [0.0, 0.04, 0.08, 0.08 + pause_s, 0.12 + pause_s, 0.12 + 2 * pause_s]
+    with av.open(str(write(tmp_path / "v.mp4", times_s))) as container:
+        shown = [(f.time, int(f.to_ndarray(format="rgb24")[24, 32, 1])) for f in container.decode(video=0)]
+    for number, (time_s, until_s) in enumerate(itertools.pairwise([*times_s, math.inf])):
+        greens = [green for at_s, green in shown if time_s - 1e-4 < at_s < until_s - 1e-4]
+        assert greens == pytest.approx([40 * number] * len(greens), abs=8)
+        assert any(at_s == pytest.approx(time_s, abs=2e-5) for at_s, _ in shown)
+    assert max(np.diff([at_s for at_s, _ in shown])) <= 2**30 / 90_000 + 1e-4
+    assert shown[-1][0] == pytest.approx(times_s[-1], abs=2e-5)
+
+
+def test_the_part_keeps_the_times_of_a_pause_too(tmp_path: Path) -> None:
+    video = Mp4Writer(tmp_path / "v.mp4", 64, 48)
+    for time_s in (0.0, 30_000.0, 30_000.5, 30_001.0, 30_001.5, 30_002.0):
+        video.write(np.zeros((48, 64, 3), np.uint8), time_s)
+    with av.open(str(video.part)) as container:
+        times_s = [frame.time for frame in container.decode(video=0)]
+    assert len(times_s) >= 6  # 0 s, two repeats, and all but the last half second
+    assert set(times_s) - {2**30 / 90_000, 2**31 / 90_000} <= {0.0, 30_000.0, 30_000.5, 30_001.0, 30_001.5, 30_002.0}
+    video.abandon()
+
+
+def test_a_stamp_months_ahead_is_refused_at_once(tmp_path: Path) -> None:
+    video = Mp4Writer(tmp_path / "v.mp4", 64, 48)
+    video.write(np.zeros((48, 64, 3), np.uint8), 0.0)
+    with pytest.raises(OutputError, match=r"^cannot write .*v\.mp4: a picture comes 19676 days after the one"):
+        video.write(np.zeros((48, 64, 3), np.uint8), 1.7e9)  # from the time since the start to that since 1970
+    video.abandon()
+    assert video.part.exists()
+
+
+def test_stamps_that_were_not_kept_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(H264Encoder, "repeats", lambda self, time_s: ())
+    with pytest.raises(OutputError, match=r"reads back as \('h264', 'yuv420p', 3, \d+\), not as .*, 3, 2700003000\)"):
+        write(tmp_path / "v.mp4", [0.0, 30_000.0, 30_000 + 1 / 30])
+    assert [path.name for path in tmp_path.iterdir()] == ["v.part.mp4"]
+
+
 def test_odd_size_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ShapeError, match="65 x 48 px: width and height must be even"):
         Mp4Writer(tmp_path / "v.mp4", 65, 48)
@@ -101,19 +147,21 @@ def test_full_disk(tmp_path: Path) -> None:
 
 def test_check_finds_a_wrong_count_and_a_wrong_codec(tmp_path: Path) -> None:
     path = write(tmp_path / "v.mp4")
-    check_h264(path, len(TIMES_S))
-    with pytest.raises(OutputError, match=r"reads back as \('h264', 'yuv420p', 6\)"):
-        check_h264(path, 7)
+    last_tick = round((TIMES_S[-1] - TIMES_S[0]) * 90_000)
+    check_h264(path, len(TIMES_S), last_tick)
+    for frames, tick in ((7, last_tick), (6, last_tick + 1)):
+        with pytest.raises(OutputError, match=rf"reads back as \('h264', 'yuv420p', 6, {last_tick}\)"):
+            check_h264(path, frames, tick)
     with av.open(str(tmp_path / "w.mp4"), "w") as container:
         stream = container.add_stream("mpeg4", rate=30)
         stream.width, stream.height, stream.pix_fmt = 64, 48, "yuv420p"
         container.mux(stream.encode(av.VideoFrame(64, 48, "yuv420p")))
         container.mux(stream.encode(None))
     with pytest.raises(OutputError, match="reads back as"):
-        check_h264(tmp_path / "w.mp4", 1)
+        check_h264(tmp_path / "w.mp4", 1, 0)
     (tmp_path / "x.mp4").write_bytes(b"no video")
     with pytest.raises(OutputError):
-        check_h264(tmp_path / "x.mp4", 1)
+        check_h264(tmp_path / "x.mp4", 1, 0)
 
 
 def test_failed_check_keeps_the_old_video_and_the_part(tmp_path: Path) -> None:
@@ -124,4 +172,4 @@ def test_failed_check_keeps_the_old_video_and_the_part(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match=r"v\.part\.mp4 holds what was encoded"):
         video.finish()
     assert (tmp_path / "v.mp4").read_bytes() == b"old"
-    check_h264(video.part, 1)
+    check_h264(video.part, 1, 0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import re
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -23,6 +24,13 @@ TICK = Fraction(1, 90_000)
 
 KEY_TICKS = round(1 / TICK)
 """A key frame this often at least, by the pictures' own times: a stream can be entered at each of them."""
+
+MOST_GAP_TICKS = 2**30
+"""Pictures of a file lie no further apart, 3.3 h: from 2^31 - 1 ticks on FFmpeg puts a stamp of its own in the place of
+the one it is given, in either kind of MP4."""
+
+MOST_REPEATS = 1000
+"""A pause that would take more pictures to bridge, 138 days, is taken for a broken clock."""
 
 FRAGMENTED = {
     "movflags": "frag_keyframe+empty_moov+default_base_moof",
@@ -70,6 +78,7 @@ class H264Encoder:
         self._to_yuv = VideoReformatter()  # one for all frames: setting one up costs as much as using it
         self._last_tick, self._key_tick = -1, -KEY_TICKS
         self._start_s: float | None = None
+        self._newest: av.VideoFrame | None = None
         header = io.BytesIO()
         with writing(path, FFmpegError):
             self._container = av.open(header, "w", format="mp4", options=FRAGMENTED)
@@ -96,12 +105,35 @@ class H264Encoder:
     def encode(self, picture: NDArray[np.uint8], time_s: float) -> Coded:
         """Return one (height, width, 3) RGB picture encoded, shown from ``time_s`` on; the first one is at tick 0."""
         self._start_s = time_s if self._start_s is None else self._start_s
-        tick = max(round((time_s - self._start_s) / TICK), self._last_tick + 1)
         with writing(self._path, FFmpegError):
             frame = av.VideoFrame.from_numpy_buffer(np.ascontiguousarray(picture), format="rgb24")
-            frame = self._to_yuv.reformat(
+            self._newest = self._to_yuv.reformat(
                 frame, format="yuv420p", dst_colorspace=Colorspace.ITU601, dst_color_range=ColorRange.MPEG
             )
+        return self._encoded(self._newest, self._tick_at(time_s))
+
+    def repeats(self, time_s: float) -> Iterator[Coded]:
+        """Yield the newest picture again, as often as the one that is to follow at ``time_s`` is too far from it.
+
+        Raises
+        ------
+        OutputError : that is more than ``MOST_REPEATS`` times
+        """
+        if self._newest is None:
+            return
+        tick = self._tick_at(time_s)
+        if tick - self._last_tick > MOST_REPEATS * MOST_GAP_TICKS:
+            days = (tick - self._last_tick) * TICK / 86_400
+            raise OutputError(f"cannot write {self._path}: a picture comes {float(days):.0f} days after the one before")
+        while tick - self._last_tick > MOST_GAP_TICKS:
+            yield self._encoded(self._newest, self._last_tick + MOST_GAP_TICKS)
+
+    def _tick_at(self, time_s: float) -> int:
+        assert self._start_s is not None
+        return max(round((time_s - self._start_s) / TICK), self._last_tick + 1)
+
+    def _encoded(self, frame: av.VideoFrame, tick: int) -> Coded:
+        with writing(self._path, FFmpegError):
             frame.pts, frame.time_base = tick, TICK
             if tick - self._key_tick >= KEY_TICKS:
                 frame.pict_type = PictureType.I

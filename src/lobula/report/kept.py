@@ -22,15 +22,15 @@ WIDTH_PX = 640
 """Clips are no wider; the network sees less still."""
 
 LONGEST_S = 600.0
-"""Longest time before or after an alarm."""
+"""Longest time before or after an alarm, and between two pictures of a clip."""
 
 
 class KeptClips:
     """Writes ``collision-DATE-TIMEZ-ID.mp4`` into ``folder`` for each alarm, and its part of the trace as csv.
 
-    A clip begins ``before_s`` before its alarm, or up to a second earlier, and ends ``after_s`` after it is over;
-    alarms that begin before that share it. A clip that cannot be written is given up, and the next one is tried again:
-    what goes wrong with several in a row is told once.
+    A clip begins ``before_s`` before its alarm, or up to a second earlier, and ends ``after_s`` after it is over, or at
+    a pause of more than ``LONGEST_S``; alarms that begin before that share it. A clip that cannot be written is given
+    up, and the next one is tried again: what goes wrong with several in a row is told once.
 
     Raises
     ------
@@ -54,6 +54,7 @@ class KeptClips:
         self._wanted: str | None = None  # name of the clip that is to begin
         self._clip: Clip | None = None
         self._until_s = -math.inf  # when the clip ends
+        self._newest_s = math.inf
         self._finisher = Finisher()
         self._lost = 0
         self._told_lost = self._told_short = False
@@ -80,6 +81,9 @@ class KeptClips:
             fps = float(self._header.get("fps") or 30.0)
             height, width = image.shape[:2]
             self._encoder = H264Encoder(self.folder / "clips", width, height, fps, crf=23, speed="superfast")
+        if reading.time_s - self._newest_s > LONGEST_S:  # an MP4 cannot hold every gap
+            self._hand_over()
+        self._newest_s = reading.time_s
         slot = Slot(index, reading, self._encoder.encode(image, reading.time_s))
         self._ring.add(slot)
         if reading.time_s > self._until_s:
@@ -146,6 +150,10 @@ class KeptClips:
     def _end(self) -> None:
         """Hand the clip under way over to be finished, with what was still wanted."""
         self._begin()
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        """Have the clip under way finished."""
         clip, self._clip = self._clip, None
         if clip is not None:
             self._finisher.take(clip)

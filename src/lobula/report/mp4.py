@@ -24,6 +24,8 @@ _FASTSTART = {"movflags": "+faststart"}
 class Mp4File:
     """Puts the packets of one encoder into ``path``; the first one must be a key frame, and is shown at 0 s.
 
+    None may come more than ``MOST_GAP_TICKS`` after the one before.
+
     While it grows the video is the fragmented ``NAME.part.mp4``, whole up to the last half second whatever happens to
     the process. ``finish`` copies it into a faststart ``path``, checks that file and removes the part.
 
@@ -78,7 +80,7 @@ class Mp4File:
                 self._whole_bytes = self.part.stat().st_size
             with whole_file(self.path, FFmpegError) as temporary:
                 _faststart(self.part, temporary, self._about, self._gap)
-                check_h264(temporary, frames)
+                check_h264(temporary, frames, self._last_tick - (self._first_tick or 0))
         except OutputError as error:
             self.abandon()
             raise OutputError(f"{error}; {self.part} holds what was encoded") from error
@@ -120,9 +122,13 @@ class Mp4Writer:
         self.part = self._file.part
 
     def write(self, picture: NDArray[np.uint8], time_s: float) -> None:
-        """Add one (height, width, 3) RGB picture, to be shown from ``time_s`` on; the first one starts the video."""
-        self._file.add(self._encoder.encode(picture, time_s))
-        self.frames += 1
+        """Add one (height, width, 3) RGB picture, to be shown from ``time_s`` on; the first one starts the video.
+
+        In a pause of hours the picture before it is repeated.
+        """
+        for coded in self._encoder.repeats(time_s):
+            self._add(coded)
+        self._add(self._encoder.encode(picture, time_s))
 
     def finish(self) -> None:
         """Put the checked file at ``path``.
@@ -139,9 +145,15 @@ class Mp4Writer:
         self._encoder.close()
         self._file.abandon()
 
+    def _add(self, coded: Coded) -> None:
+        self._file.add(coded)
+        self.frames += 1
 
-def check_h264(path: Path, frames: int) -> None:
-    """Open ``path`` again and check that it is H.264, yuv420p, holds ``frames`` frames and shows the first one.
+
+def check_h264(path: Path, frames: int, last_tick: int) -> None:
+    """Open ``path`` again and check what is in it.
+
+    It must be H.264, yuv420p, hold ``frames`` frames, the last one at ``last_tick``, and show the first one.
 
     Raises
     ------
@@ -151,10 +163,14 @@ def check_h264(path: Path, frames: int) -> None:
         stream = container.streams.video[0]
         first = next(container.decode(stream))
         container.seek(0)
-        counted = sum(1 for packet in container.demux(stream) if packet.size)
-        found = (stream.codec_context.name, first.format.name, counted)
-    if found != ("h264", "yuv420p", frames):
-        raise OutputError(f"{path} reads back as {found}, not as ('h264', 'yuv420p', {frames})")
+        counted, last = 0, None
+        for packet in container.demux(stream):
+            if packet.size:
+                counted, last = counted + 1, packet.pts
+        found = (stream.codec_context.name, first.format.name, counted, last)
+    wanted = ("h264", "yuv420p", frames, last_tick)
+    if found != wanted:
+        raise OutputError(f"{path} reads back as {found}, not as {wanted}")
 
 
 def _faststart(part: Path, path: Path, about: str, last_gap: int) -> None:
