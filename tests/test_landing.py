@@ -5,12 +5,40 @@ from pathlib import Path
 import pytest
 
 from lobula.errors import OutputError
-from lobula.landing import part_of, whole_file, writing
+from lobula.landing import part_of, set_aside, whole_file, writing
 
 
 def test_part_keeps_the_suffix_or_takes_another() -> None:
     assert part_of(Path("a/clip.mp4")) == Path("a/clip.part.mp4")
     assert part_of(Path("a/t.npz"), ".csv") == Path("a/t.part.csv")
+
+
+def test_what_an_earlier_run_left_gets_the_next_free_name(tmp_path: Path) -> None:
+    part = tmp_path / "clip.part.mp4"
+    for number, name in enumerate(("clip.part-2.mp4", "clip.part-3.mp4", "clip.part-4.mp4")):
+        part.write_text(f"run {number}")
+        assert set_aside(part) == [f"{part} was left by an earlier run: it is {tmp_path / name} now"]
+        assert (tmp_path / name).read_text() == f"run {number}"
+        assert not part.exists()
+
+
+def test_nothing_is_set_aside_where_nothing_would_be_lost(tmp_path: Path) -> None:
+    part = tmp_path / "t.part.csv"
+    assert set_aside(part) == []
+    part.touch()
+    assert set_aside(part) == []
+    assert list(tmp_path.iterdir()) == [part]
+
+
+def test_what_cannot_be_set_aside_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def denied(self: Path, target: Path) -> None:
+        raise PermissionError(13, "")
+
+    part = tmp_path / "t.part.csv"
+    part.write_text("rows")
+    monkeypatch.setattr(Path, "rename", denied)
+    with pytest.raises(OutputError, match=r"^cannot write .*t\.part\.csv: no permission$"):
+        set_aside(part)
 
 
 def test_file_appears_whole(tmp_path: Path) -> None:

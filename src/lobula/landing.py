@@ -59,6 +59,25 @@ def part_of(path: Path, suffix: str | None = None) -> Path:
     return path.with_name(f"{path.stem}.part{suffix or path.suffix}")
 
 
+def set_aside(part: Path) -> list[str]:
+    """Give what an earlier run left at ``part`` the next free name, and return one line that says so.
+
+    ``clip.part.mp4`` -> ``clip.part-2.mp4``. Nothing is done or said where nothing is lost: no file, or an empty one.
+
+    Raises
+    ------
+    OutputError : it cannot be renamed
+    """
+    with writing(part):
+        if not part.is_file() or part.stat().st_size == 0:
+            return []
+        number = 2
+        while (aside := part.with_name(f"{part.stem}-{number}{part.suffix}")).exists():
+            number += 1
+        part.rename(aside)
+    return [f"{part} was left by an earlier run: it is {aside} now"]
+
+
 @contextmanager
 def whole_file(path: Path, *also: type[Exception]) -> Iterator[Path]:
     """Give a temporary name beside ``path`` to write to, and ``land`` it as ``path`` when the block ends well.

@@ -29,8 +29,11 @@ for sink in sinks:
 for index in range(2 * FRAMES):
     for sink in sinks:
         sink.frame(index, reading(index % FRAMES)._replace(time_s=index / 10), picture)
+print(*(note for sink in sinks for note in sink.notes), sep="\\n", flush=True)
 os.kill(os.getpid(), signal.SIGKILL)
 """
+
+PARTS = [("t", ".csv"), ("out", ".mp4"), ("raw", ".mp4")]  # of the killed run
 
 FULL = """
 from report.approach import HEADER, SUMMARY, picture, reading
@@ -77,6 +80,18 @@ def test_killed_run_leaves_rows_and_a_video_that_plays(tmp_path: Path) -> None:
         assert not (tmp_path / f"{name}.mp4").exists()
         # 60 frames at 10 Hz; the file lacks its last, unfinished half second
         assert frames_of(tmp_path / f"{name}.part.mp4") >= 54
+
+
+def test_the_same_run_again_leaves_what_the_killed_one_left(tmp_path: Path) -> None:
+    child(KILLED, tmp_path)
+    left = {(stem, suffix): (tmp_path / f"{stem}.part{suffix}").read_bytes() for stem, suffix in PARTS}
+    done = child(KILLED.replace("2 * FRAMES", "FRAMES"), tmp_path)
+    assert done.stdout.splitlines() == [
+        f"{stem}.part{suffix} was left by an earlier run: it is {stem}.part-2{suffix} now" for stem, suffix in PARTS
+    ]
+    for (stem, suffix), data in left.items():
+        assert (tmp_path / f"{stem}.part-2{suffix}").read_bytes() == data
+        assert (tmp_path / f"{stem}.part{suffix}").stat().st_size < len(data)
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="a file size limit stands in for the disk")

@@ -165,6 +165,15 @@ def test_an_output_that_lost_something_goes_on_and_says_so():
     assert (outcome.summary["status"], outcome.exit_code) == ("output_failed", 3)
 
 
+def test_what_an_output_has_to_say_is_told_at_once_and_is_no_failure():
+    sink = Sink()
+    sink.notes = ["r.part.mp4 was left"]
+    outcome, said = outcome_of(Source(frames(3)), [sink, Sink()])
+    assert said == outcome.summary["notes"] == sink.summary["notes"] == ["r.part.mp4 was left"]
+    assert (outcome.summary["status"], outcome.exit_code) == ("ok", 0)
+    assert "problems" not in outcome.summary
+
+
 class Manager:
     """A service manager that notes what it is told."""
 

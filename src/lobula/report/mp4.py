@@ -27,7 +27,8 @@ class Mp4File:
     None may come more than ``MOST_GAP_TICKS`` after the one before.
 
     While it grows the video is the fragmented ``NAME.part.mp4``, whole up to the last half second whatever happens to
-    the process. ``finish`` copies it into a faststart ``path``, checks that file and removes the part.
+    the process. ``finish`` copies it into a faststart ``path``, checks that file and removes the part. An older part is
+    replaced: ``set_aside`` what cannot be made again.
 
     Raises
     ------

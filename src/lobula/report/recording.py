@@ -11,6 +11,7 @@ from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
 from ..errors import OutputError, ParameterError
+from ..landing import part_of, set_aside
 from ..runtime.sinks import Picture
 from ..types import Reading
 from .h264 import require_h264
@@ -48,7 +49,8 @@ class EvenPictures:
 class Recording:
     """Writes ``path``, an H.264 MP4 of the source's own pictures, upright, at their own times.
 
-    A run that is killed leaves ``NAME.part.mp4``, which plays up to its last half second.
+    A run that is killed leaves ``NAME.part.mp4``, which plays up to its last half second; the next one sets it aside,
+    and ``notes`` says so.
 
     Raises
     ------
@@ -65,12 +67,14 @@ class Recording:
         self._sized = EvenPictures()
         self._video: Mp4Writer | None = None
         self._failed = False
+        self.notes: list[str] = []
 
     def open(self, header: Mapping[str, Any]) -> None:
         """Remember the run; the file starts with the first frame, whose shape sets its size."""
         self._header = header
         if not self.path.parent.is_dir():
             raise OutputError(f"cannot write {self.path}: no such folder {self.path.parent}")
+        self.notes += set_aside(part_of(self.path, ".mp4"))
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Encode one picture."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import OutputError, ParameterError
-from ..landing import part_of, whole_file, writing
+from ..landing import part_of, set_aside, whole_file, writing
 from ..runtime.sinks import Picture
 from ..types import Reading
 from .trace_file import COLUMNS, TRACE_SUFFIXES, pyarrow_parquet, read_trace
@@ -43,7 +43,8 @@ class TraceWriter:
     """Writes the trace to ``path``; its suffix says how.
 
     Every row is on its way to the disk before the next frame is looked at, so a killed run leaves all its rows: csv
-    and jsonl under their own name, npz and parquet as ``NAME.part.csv`` until ``close`` turns it into the file.
+    and jsonl under their own name, npz and parquet as ``NAME.part.csv`` until ``close`` turns it into the file. One
+    that an earlier run left is set aside; ``notes`` says so.
 
     Raises
     ------
@@ -62,10 +63,13 @@ class TraceWriter:
         self.rows_path = self.path if kind in (".csv", ".jsonl") else part_of(self.path, ".csv")
         self._file: FileIO | None = None
         self._about: dict[str, Any] = {}
+        self.notes: list[str] = []
 
     def open(self, header: Mapping[str, Any]) -> None:
         """Start the file; an older one of that name is replaced."""
         self._about = facts(header)
+        if self.rows_path != self.path:
+            self.notes += set_aside(self.rows_path)
         with writing(self.path):
             self._file = FileIO(self.rows_path, "w")
         if self.rows_path.suffix.lower() == ".csv":

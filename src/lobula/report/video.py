@@ -11,6 +11,7 @@ from av.video.reformatter import VideoReformatter
 from numpy.typing import NDArray
 
 from ..errors import OutputError, ParameterError
+from ..landing import part_of, set_aside
 from ..runtime.sinks import Picture
 from ..types import Reading
 from .canvas import Canvas, border, label, rgb, text
@@ -29,7 +30,8 @@ _PANEL = rgb(DARK.panel)
 class AnnotatedVideo:
     """Writes ``path``, an H.264 MP4: the source's picture on top, the running traces of ``Strip`` below.
 
-    Frames keep their own time stamps. A run that is killed leaves ``NAME.part.mp4``, which plays.
+    Frames keep their own time stamps. A run that is killed leaves ``NAME.part.mp4``, which plays; the next one sets it
+    aside, and ``notes`` says so.
 
     Raises
     ------
@@ -46,12 +48,14 @@ class AnnotatedVideo:
         self._video: Mp4Writer | None = None
         self._scaler = VideoReformatter()
         self._failed = False
+        self.notes: list[str] = []
 
     def open(self, header: Mapping[str, Any]) -> None:
         """Remember the run; the file starts with the first frame, whose shape sets its size."""
         self._header = header
         if not self.path.parent.is_dir():
             raise OutputError(f"cannot write {self.path}: no such folder {self.path.parent}")
+        self.notes += set_aside(part_of(self.path, ".mp4"))
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Draw and encode one frame."""

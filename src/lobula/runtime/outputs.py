@@ -11,13 +11,16 @@ from ..errors import LobulaError
 from ..types import Reading
 from .events import Record
 from .ndjson import ReaderGoneError
-from .sinks import OutputLapseError, Picture, Sink, WakefulSink
+from .sinks import NotingSink, OutputLapseError, Picture, Sink, WakefulSink
 
 _DISK_FAILED = {errno.ENOSPC, errno.EDQUOT, errno.EIO, errno.EFBIG}
 
 
 class Outputs:
-    """Hands every call to each sink that still works. ``failures`` holds what went wrong, in the order it did."""
+    """Hands every call to each sink that still works.
+
+    ``failures`` holds what went wrong, in the order it did; ``notes`` what the sinks had to say besides.
+    """
 
     def __init__(self, sinks: Sequence[Sink], tell: Callable[[str], None]) -> None:
         self._sinks = tuple(sinks)
@@ -25,6 +28,7 @@ class Outputs:
         self._alive: list[Sink] = []
         self._tried: list[Sink] = []
         self.failures: list[str] = []
+        self.notes: list[str] = []
 
     @property
     def deserted(self) -> bool:
@@ -46,9 +50,12 @@ class Outputs:
             except LobulaError as error:
                 if not (isinstance(error, ReaderGoneError) or _disk_failed(error)):
                     raise
-                self._note(error)
+                self._fail(error)
             else:
                 self._alive.insert(0, sink)
+            for note in sink.notes if isinstance(sink, NotingSink) else ():
+                self.notes.append(note)
+                self._say(note)
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Hand a reading to the sinks."""
@@ -70,7 +77,7 @@ class Outputs:
                 sink.close(summary())
             except LobulaError as error:
                 if sink in self._alive:
-                    self._note(error)
+                    self._fail(error)
         self._tried = []
 
     def _event(self, record: Record) -> None:
@@ -83,13 +90,16 @@ class Outputs:
             except LobulaError as error:
                 if not isinstance(error, OutputLapseError):
                     self._alive.remove(sink)
-                self._note(error)
+                self._fail(error)
 
-    def _note(self, error: LobulaError) -> None:
+    def _fail(self, error: LobulaError) -> None:
         if not isinstance(error, ReaderGoneError):
             self.failures.append(str(error))
-            with suppress(OSError):
-                self._tell(str(error))
+            self._say(str(error))
+
+    def _say(self, line: str) -> None:
+        with suppress(OSError):
+            self._tell(line)
 
 
 def _disk_failed(error: BaseException) -> bool:

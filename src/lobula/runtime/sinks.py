@@ -51,3 +51,10 @@ class WakefulSink(Protocol):
 
     def silence(self, index: int, time_s: float) -> None:
         """No frame has come since frame ``index``, and it is ``time_s`` in the time of the source."""
+
+
+@runtime_checkable
+class NotingSink(Protocol):
+    """A sink that has something to say once it is open, and no failure: it is told, one line each."""
+
+    notes: list[str]

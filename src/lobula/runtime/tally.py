@@ -107,7 +107,7 @@ class Tally:
             "ms_worst": round(1000 * self._steps.worst_s, 4),
         }
         problems = [text for text in (self.message, *self._outputs.failures) if text]
-        said = {"problems": problems, "notes": list(self._source.notes)}
+        said = {"problems": problems, "notes": [*self._source.notes, *self._outputs.notes]}
         return record | self._live() | {name: texts for name, texts in said.items() if texts}
 
     def _live(self) -> dict[str, Any]:
