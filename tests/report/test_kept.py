@@ -1,6 +1,8 @@
 """Clips of alarms: which frames are in them, which alarms share one, what a full disk does to them."""
 
+import os
 import re
+from pathlib import Path
 
 import av
 import numpy as np
@@ -234,3 +236,27 @@ def test_a_folder_that_cannot_be_made(tmp_path):
     with pytest.raises(OutputError, match=r"^cannot write .*file/clips: "):
         sink.open(HEADER)
     sink.close(SUMMARY)
+
+
+@pytest.mark.skipif(not Path("/proc/self").is_dir(), reason="needs a folder that takes no files from anybody, root too")
+def test_a_folder_that_takes_no_files_is_found_before_the_first_frame():
+    sink = KeptClips("/proc")
+    with pytest.raises(OutputError, match=r"^cannot write /proc: no file can be made there$"):
+        sink.open(HEADER)
+    sink.close(SUMMARY)
+
+
+def test_a_folder_one_may_not_write_into_is_found_before_the_first_frame(tmp_path, monkeypatch):
+    def denied(path, *more, **named):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(os, "open", denied)  # root may
+    sink = KeptClips(tmp_path)
+    with pytest.raises(OutputError, match=rf"^cannot write {tmp_path}: no permission$"):
+        sink.open(HEADER)
+    sink.close(SUMMARY)
+
+
+def test_looking_into_the_folder_leaves_nothing_there(tmp_path):
+    KeptClips(tmp_path).open(HEADER)
+    assert list(tmp_path.iterdir()) == []

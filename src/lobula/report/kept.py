@@ -6,6 +6,7 @@ import math
 import time
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryFile
 from typing import Any
 
 from ..errors import OutputError, ParameterError
@@ -61,10 +62,16 @@ class KeptClips:
         self._problems: list[str] = []
 
     def open(self, header: Mapping[str, Any]) -> None:
-        """Make the folder."""
+        """Make the folder and see that a file can be made in it: an alarm may come days later.
+
+        Raises
+        ------
+        OutputError : it cannot
+        """
         self._header = header
         with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
+            TemporaryFile(dir=self.folder).close()
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Encode one picture into the ring and, during a clip, into that.
