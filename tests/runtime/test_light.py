@@ -44,11 +44,13 @@ def test_an_exposure_step_is_a_flash_and_no_collision(gain, frames):
     assert set(states) == {"warming_up", "flash"}
 
 
-@pytest.mark.parametrize("mains_hz", [50, 60])
-@pytest.mark.parametrize("rate_hz", [25, 29.97, 30])
+@pytest.mark.parametrize(
+    ("mains_hz", "rate_hz"), [(50, 24.9), (50, 29.97), (50, 30), (60, 25), (60, 29.9), (60, 29.97)]
+)
 def test_mains_flicker_is_no_collision(mains_hz, rate_hz):
     times_s = np.arange(120) / rate_hz
-    # a lamp lights up twice in a period; each picture meets it in another phase
+    # a lamp lights up twice in a period; each picture meets it in another phase, but for rates that divide it
     gains = 1 + MAINS_DEPTH * np.sin(2 * np.pi * 2 * mains_hz * times_s + 0.3)
+    assert np.ptp(gains) > MAINS_DEPTH
     collisions, _ = outcome_of(lit(gains), rate_hz)
     assert collisions == 0
