@@ -11,6 +11,7 @@ import sys
 import threading
 import urllib.error
 import urllib.request
+from contextlib import nullcontext
 from typing import Any
 
 import av
@@ -212,6 +213,21 @@ class TestACameraThatGoesAway:
             assert told[:3] == ["lost", "retry", "back"]
             code, records, _ = served.stop()
         assert (code, records[-1]["status"], records[-1]["lost"]) == (130, "interrupted", 1)
+
+
+@pytest.mark.parametrize("live", [True, False])
+def test_a_page_goes_on_when_its_reader_has_gone(serve, clip, live):
+    bars = moving_bar(40, 128, 96)
+    with WebCamera(lambda n: bars[n % 40]) if live else nullcontext() as camera:
+        served = serve(camera.address if live else clip)
+        served.process.stdout.close()
+        for spikes in (40, 41, 42):
+            served.get("settings", {"decision.collision_spikes": spikes})
+            with Watcher(served) as watcher:
+                watcher.take()
+        assert b"collision_spikes = 42" in served.get("settings.toml")
+        served.process.send_signal(signal.SIGINT)
+        assert served.process.wait(30) == 130
 
 
 class TestBadInput:

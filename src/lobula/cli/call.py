@@ -16,6 +16,7 @@ import typer
 from ..errors import LobulaError
 from ..runtime.interrupts import Interrupted, raised_at_once
 from ..runtime.script import exit_code
+from .progress import say
 
 _ParserError = cast(type[Exception], typer.BadParameter.__mro__[2])
 """What the parser raises for a wrong command line: ``ClickException``, which typer names in no public place."""
@@ -77,11 +78,11 @@ def _show_warning(
     message: Warning | str, category: type[Warning], filename: str, lineno: int, file: Any = None, line: Any = None
 ) -> None:
     """Say a warning in one line, as everything else."""
-    print(f"lobula: {message}", file=sys.stderr)
+    say(f"lobula: {message}")
 
 
 def _complain(message: str, code: int) -> int:
-    print(f"lobula: {message}", file=sys.stderr)
+    say(f"lobula: {message}")
     return _flushed(code)
 
 

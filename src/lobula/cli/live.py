@@ -11,7 +11,7 @@ from ..errors import ParameterError
 from ..frames.source import FrameSource
 from ..runtime.service import Listener, find_service
 from ..runtime.sources import Source
-from .progress import Say, Screen
+from .progress import Describe, Screen
 
 DEFAULT_RECONNECT = "forever"
 
@@ -54,17 +54,19 @@ def listeners(frames: Source, here: Screen | None = None) -> list[Listener]:
 
 
 class _Described:
-    """Shows how the run fares, once a second."""
+    """Shows how the run fares, and how many frames it had, once a second."""
 
-    def __init__(self, describe: Say) -> None:
+    def __init__(self, describe: Describe) -> None:
         self._describe = describe
         self._told_s = -math.inf
+        self._frames = 0
 
     def beat(self, words: Callable[[], str], ready: bool) -> None:
+        self._frames += ready
         now_s = time.monotonic()
         if now_s - self._told_s >= 1.0:
             self._told_s = now_s
-            self._describe(words())
+            self._describe(words(), self._frames)
 
     def stop(self) -> None:
         """The bar goes with the run."""

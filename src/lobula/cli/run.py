@@ -14,7 +14,7 @@ from ..errors import LobulaError, OutputError, ParameterError
 from . import options as o
 from .call import new_app
 from .hooks import HookRate, HookTargets, hook_files, make_hooks, with_hooks
-from .progress import Screen, screen
+from .progress import Screen, live_screen, screen
 from .robot import is_robot, open_robot, port_of, refuse_others
 
 if TYPE_CHECKING:
@@ -110,7 +110,7 @@ def run(
             selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
             files = _file_sinks(trace, None, None, report)
             robot = open_robot(port, selection, reconnect, timeout)
-        with robot, screen(robot.frame_count, robot.name) as here:
+        with robot, live_screen(robot.frame_count, robot.name) as here:
             return _watch_robot(robot, files, hooks, hook_rate, json, here)
 
     with _summary_if_refused(json):
@@ -138,7 +138,8 @@ def run(
         except ParameterError:
             frames.close()
             raise
-    with frames, screen(frames.frame_count, Path(frames.name).name) as here:
+    shown = live_screen if frames.live else screen
+    with frames, shown(frames.frame_count, Path(frames.name).name) as here:
         return _watch(frames, params, chosen.preset, network, turns, files, hooks, hook_rate, json, here)
 
 
@@ -193,13 +194,12 @@ def _watch(
 ) -> int:
     from ..runtime.header import run_header
     from ..runtime.loop import run as run_loop
-    from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from .live import listeners
-    from .narrator import Narrator
+    from .reader import reader_of
 
     # last: its summary knows what became of the files and the hooks
-    reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(here.say)
+    reader = reader_of(frames, json, here.say)
     sinks = [*files, *with_hooks(reader, hooks, hook_rate)]
     header = run_header(frames, params, preset=preset, engine=network.engine)
     told = frames.notes
@@ -227,13 +227,12 @@ def _watch_robot(
     robot: RobotStream, files: list[Sink], hooks: list[Hook], hook_rate: float | None, json: bool, here: Screen
 ) -> int:
     from ..runtime.header import robot_header
-    from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from ..runtime.robot_watch import follow_robot
     from .live import listeners
-    from .narrator import Narrator
+    from .reader import reader_of
 
-    reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(here.say)
+    reader = reader_of(robot, json, here.say)
     outputs = Outputs([*files, *with_hooks(reader, hooks, hook_rate)], lambda text: here.say(f"lobula: {text}"))
     told = listeners(robot, here)
     outcome = follow_robot(robot, outputs, robot_header(robot), on_frame=here.advance, listeners=told)

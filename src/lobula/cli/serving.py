@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Callable
-from contextlib import closing
+from collections.abc import Callable, Mapping
+from contextlib import closing, suppress
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,8 +19,8 @@ if TYPE_CHECKING:
     from ..hooks import Hook
     from ..model.network import NetworkParams
     from ..runtime.robot import RobotStream
-    from ..runtime.sinks import Sink
     from ..runtime.yaw import YawRecord
+    from .progress import Say
 
 KEPT_ROWS = 4096
 """Readings of a live run that a page opened later still gets: two minutes at 30 Hz."""
@@ -39,30 +38,29 @@ def watch(
     from ..dashboard.tunable_network import TunableNetwork
     from ..runtime.header import run_header
     from ..runtime.loop import run as run_loop
-    from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from .live import listeners
-    from .narrator import Narrator
-    from .progress import say
+    from .progress import live_words
+    from .reader import reader_of
 
     board: Board
-    network = TunableNetwork(
-        settings, engine=engine, wanted=lambda: board.wanted_maps, on_change=partial(_tell_change, json)
-    )
-    header = run_header(frames, settings.params, preset=settings.preset, engine=network.engine)
-    board = Board(about_run("live", header, settings), Rows(keep=KEPT_ROWS), settings=settings)
-    with make(board) as site:
-        _announce(site, "live", frames.name, json)
-        for note in frames.notes:
-            say(f"lobula: {note}")
-        reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(say)
-        sinks = [LiveSink(board, frames, network), *with_hooks(reader, hooks, hook_rate, also=board.add_event)]
-        outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
-        rate = None if turns is None else turns.at
-        outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, listeners=listeners(frames))
-        if outcome.message:
-            say(f"lobula: {outcome.message}")
-        return outcome.exit_code
+    with live_words() as tell:
+        reader = reader_of(frames, json, tell)
+        changed = partial(_tell_change, reader.event if json else None, tell)
+        network = TunableNetwork(settings, engine=engine, wanted=lambda: board.wanted_maps, on_change=changed)
+        header = run_header(frames, settings.params, preset=settings.preset, engine=network.engine)
+        board = Board(about_run("live", header, settings), Rows(keep=KEPT_ROWS), settings=settings)
+        with make(board) as site:
+            _announce(site, "live", frames.name, json)
+            for note in frames.notes:
+                tell(f"lobula: {note}")
+            sinks = [LiveSink(board, frames, network), *with_hooks(reader, hooks, hook_rate, also=board.add_event)]
+            outputs = Outputs(sinks, lambda text: tell(f"lobula: {text}"))
+            rate = None if turns is None else turns.at
+            outcome = run_loop(frames, network, outputs, header, yaw_rate_deg_s=rate, listeners=listeners(frames))
+            if outcome.message:
+                tell(f"lobula: {outcome.message}")
+            return outcome.exit_code
 
 
 def watch_robot(
@@ -74,24 +72,23 @@ def watch_robot(
     from ..dashboard.robot_sink import RobotSink
     from ..dashboard.rows import Rows
     from ..runtime.header import robot_header
-    from ..runtime.ndjson import NdjsonSink
     from ..runtime.outputs import Outputs
     from ..runtime.robot_watch import follow_robot
     from .live import listeners
-    from .narrator import Narrator
-    from .progress import say
+    from .progress import live_words
+    from .reader import reader_of
 
     header = robot_header(robot)
     board = Board(about_run("robot", header, None), Rows(keep=KEPT_ROWS))
-    with make(board) as site:
+    with make(board) as site, live_words() as tell:
         _announce(site, "robot", robot.name, json)
-        reader: Sink = NdjsonSink(sys.stdout) if json else Narrator(say)
+        reader = reader_of(robot, json, tell)
         sinks = [RobotSink(board, robot), *with_hooks(reader, hooks, hook_rate, also=board.add_event)]
-        outputs = Outputs(sinks, lambda text: say(f"lobula: {text}"))
+        outputs = Outputs(sinks, lambda text: tell(f"lobula: {text}"))
         outcome = follow_robot(robot, outputs, header, listeners=listeners(robot))
         for note in (*robot.notes, outcome.message):
             if note:
-                say(f"lobula: {note}")
+                tell(f"lobula: {note}")
         return outcome.exit_code
 
 
@@ -119,7 +116,7 @@ def replay(
             board = Board(about_run("recording", header, settings), Rows(), settings=settings, scenes=scenes)
             with make(board) as site:
                 _announce(site, "recording", frames.name, json)
-                tell = partial(_tell_change, json)
+                tell = partial(_tell_change, _print_record if json else None, say)
                 Replay(analysis, settings, board, tell, lambda text: say(f"lobula: {text}")).work()
     return 0
 
@@ -150,22 +147,24 @@ def _announce(site: Site, mode: str, name: str, json: bool) -> None:
     say("lobula: Ctrl-C ends it")
 
 
-def _tell_change(json: bool, before: NetworkParams, after: NetworkParams) -> None:
-    """Say which settings changed; called by the main thread."""
+def _tell_change(
+    to_program: Callable[[Mapping[str, Any]], None] | None, tell: Say, before: NetworkParams, after: NetworkParams
+) -> None:
+    """Say which settings changed; called by the thread of the detector, which a reader that has gone does not end."""
     from ..dashboard.live_settings import changes
     from ..params import settings_hash
-    from .progress import say
 
     changed = changes(before, after)
-    if json:
+    if to_program is not None:
         now: dict[str, Any] = {path: value for path, (_, value) in changed.items()}
-        _print_record({"type": "settings", "changed": now, "settings_hash": settings_hash(after)})
+        with suppress(OSError):
+            to_program({"type": "settings", "changed": now, "settings_hash": settings_hash(after)})
         return
     for path, (was, value) in changed.items():
-        say(f"settings: {path} = {value} (was {was})")
+        tell(f"settings: {path} = {value} (was {was})")
 
 
-def _print_record(record: dict[str, Any]) -> None:
+def _print_record(record: Mapping[str, Any]) -> None:
     import json
 
     print(json.dumps(record, separators=(",", ":"), allow_nan=False), flush=True)

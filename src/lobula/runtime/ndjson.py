@@ -5,11 +5,12 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Mapping
-from typing import Any, TextIO
+from typing import Any
 
 from ..errors import OutputError
 from ..types import Reading
 from .sinks import Picture
+from .unbuffered import Writable
 
 HEADER_KEYS = ("type", "version", "preset", "neurons", "settings_hash", "engine", "source", "width", "height", "fps")
 
@@ -29,7 +30,7 @@ class NdjsonSink:
     OutputError : from any call, when the line cannot be written
     """
 
-    def __init__(self, stream: TextIO, name: str = "standard output") -> None:
+    def __init__(self, stream: Writable, name: str = "standard output") -> None:
         self._stream = stream
         self._name = name
         self._header: Mapping[str, Any] | None = None  # until it is written
