@@ -237,6 +237,7 @@ class TestBadInput:
             (["nowhere.mp4"], "nowhere.mp4: no such file or folder"),
             (["nowhere.csv"], "trace nowhere.csv: cannot be read: no such file"),
             (["empty.csv"], "trace empty.csv: has no rows: nothing to show"),
+            (["nan.csv"], "trace nan.csv: column lgmd2, row 2: nan: must be finite"),
             (["broken.npz"], "trace broken.npz: is not a .npz file"),
             (["clip", "--host", "192.0.2.1"], "--host 192.0.2.1, --port 8040: must be an address of this machine"),
             (["clip", "--host", "no such name"], "--host no such name: must be an address or a name of this machine"),
@@ -259,7 +260,10 @@ class TestBadInput:
         ],
     )
     def test_one_line_says_what_is_wrong(self, call, clip, tmp_path, arguments, says):
-        (tmp_path / "empty.csv").write_text(",".join(lobula.types.TRACE_DTYPE.names) + "\n")
+        columns = ",".join(lobula.types.TRACE_DTYPE.names) + "\n"
+        (tmp_path / "empty.csv").write_text(columns)
+        rows = [f"{i},{i / 30},0.5,{lgmd2},0,0,0,0,0,0,0,ok\n" for i, lgmd2 in enumerate(["0.5", "nan"])]
+        (tmp_path / "nan.csv").write_text(columns + "".join(rows))
         (tmp_path / "broken.npz").write_bytes(b"no archive")
         with socket.socket() as taken:
             taken.bind(("127.0.0.1", 0))
@@ -290,6 +294,13 @@ class TestTheToken:
         code, records, err = served.stop()
         assert (code, records) == (130, [])
         assert err.count("?token=") == 1
+
+    def test_behind_a_proxy_it_is_made_too(self, serve, clip):
+        served = serve(clip, "--allow-host", "cam.example")
+        proxied = {"Host": "cam.example", "Origin": "https://cam.example"}
+        with pytest.raises(urllib.error.HTTPError, match="401"):
+            urllib.request.urlopen(urllib.request.Request(served.url + "settings.toml", headers=proxied), timeout=20)
+        assert served.stop()[2].count("?token=") == 1
 
     def test_it_is_taken_from_the_environment_and_another_name_may_be_allowed(self, serve, clip):
         served = serve(clip, "--allow-host", "robot.example", environment={"LOBULA_TOKEN": "correct horse battery"})

@@ -55,6 +55,15 @@ def test_a_token_is_needed_away_from_loopback_only():
     assert not made.opened_by()
 
 
+def test_a_token_is_needed_on_loopback_too_where_a_proxy_has_another_name():
+    made = access_to("127.0.0.1", 8040, None, ["cam.example.org"])
+    assert made.token is not None
+    assert len(made.token) >= 24
+    assert not made.opened_by()
+    assert not made.names_this("192.168.1.7")  # nobody but the proxy comes here
+    assert access_to("127.0.0.1", 8040, "correct horse", ["cam.example.org"]).token == "correct horse"
+
+
 def test_the_token_and_its_cookie_open():
     access = access_to("127.0.0.1", 8040, "correct horse")
     assert access.opened_by(token="correct horse")

@@ -14,7 +14,7 @@ from websockets.exceptions import InvalidStatus
 
 import lobula
 from lobula.cli.settings import choose
-from lobula.dashboard import app, prompt_http, viewer
+from lobula.dashboard import app, door, prompt_http, viewer
 from lobula.dashboard.about import about_run, board_of_trace
 from lobula.dashboard.app import MOST_BODY
 from lobula.dashboard.board import Board
@@ -155,14 +155,16 @@ class TestWhatIsRefused:
 
     @pytest.mark.parametrize(
         "origin",
-        ["http://evil.example", "null", "http://localhost:1", "https://127.0.0.1", "file://", "http://127.0.0.1"],
-    )
-    def test_another_site(self, site, origin):
+        ["http://evil.example", "null", "http://localhost:1", "https://127.0.0.1", "file://", "http://127.0.0.1",
+         "http://[", "http://]127.0.0.1[", ""],
+    )  # fmt: skip
+    def test_another_site(self, site, origin, caplog):
         refused = ask(site, "/settings", "POST", {"decision.collision_spikes": 9}, {"Origin": origin})
         assert refused.status == 403
         assert "collision_spikes = 4 " in ask(site, "/settings.toml").text
         with pytest.raises(InvalidStatus, match="403"), Watcher(site, origin=origin):
             pass
+        assert caplog.records == []  # nor is it an accident that ends in a traceback
 
     def test_our_own_site(self, site):
         own = {"Origin": f"http://127.0.0.1:{site.port}"}
@@ -273,7 +275,8 @@ class TestWhatIsRefused:
 
 class TestToken:
     @pytest.mark.parametrize("path", ["/app.js", "/settings.toml", "/none", "/stream", "/index.html"])
-    def test_nothing_without_it(self, locked, path):
+    def test_nothing_without_it(self, locked, monkeypatch, path):
+        monkeypatch.setattr(door, "AFTER_WRONG_TOKEN_S", 0.0)
         assert ask(locked, path).status == 401
         assert ask(locked, path, headers={"Authorization": f"Bearer {TOKEN}x"}).status == 401
         assert ask(locked, path, headers={"Cookie": f"lobula-{locked.port}={TOKEN}"}).status == 401
@@ -314,16 +317,11 @@ class TestToken:
 
     @pytest.mark.parametrize("given", ["token=wrong", "", "token=%00%ff%zz"])
     def test_a_wrong_one_opens_nothing(self, locked, monkeypatch, given):
-        monkeypatch.setattr(app, "AFTER_WRONG_TOKEN_S", 0.0)
+        monkeypatch.setattr(door, "AFTER_WRONG_TOKEN_S", 0.0)
         for answer in (ask(locked, "/login", "POST", given), ask(locked, f"/?token=x{given[:50]}")):
             assert answer.status == 401
             assert "set-cookie" not in answer.headers
             assert "That was not it." in answer.text
-
-    def test_a_wrong_one_takes_a_moment(self, locked):
-        begun_s = time.monotonic()
-        assert ask(locked, "/login", "POST", "token=wrong").status == 401
-        assert time.monotonic() - begun_s >= 0.5
 
     def test_another_site_cannot_try(self, locked):
         assert ask(locked, "/login", "POST", f"token={TOKEN}", {"Origin": "http://evil.example"}).status == 403
@@ -360,6 +358,19 @@ class TestTheAddress:
             assert site.link.endswith(f":{site.port}/?token={site.access.token}")
             assert ask(site, "/app.js").status == 401
             assert ask(site, "/app.js", headers={"Authorization": f"Bearer {site.access.token}"}).status == 200
+
+    def test_behind_a_proxy_on_the_same_machine_a_token_is_made(self):
+        proxied = {"Host": "cam.example.org", "Origin": "https://cam.example.org"}
+        with Site(board(), toml, also_known_as=["cam.example.org"]) as site:
+            assert site.link == f"{site.url}?token={site.access.token}"
+            for path in ("/app.js", "/settings.toml"):
+                assert ask(site, path, headers=proxied).status == 401
+            assert ask(site, "/settings", "POST", {"restore": True}, proxied).status == 401
+            with pytest.raises(InvalidStatus, match="403"), Watcher(site, origin=f"http://127.0.0.1:{site.port}"):
+                pass
+            opened = ask(site, f"/?token={site.access.token}", headers=proxied)
+            cookie = {"Cookie": opened.headers["set-cookie"].split(";")[0]}
+            assert ask(site, "/settings", "POST", {"restore": True}, proxied | cookie).status == 200
 
     def test_it_ends_at_once_and_can_begin_again_there(self):
         with Site(board(), toml) as first:

@@ -131,7 +131,7 @@ def show_trace(path: Path, make: Callable[[Board], Site], json: bool) -> int:
     trace = read_trace(path)
     if len(trace) == 0:
         raise ParameterError(f"trace {path}: has no rows: nothing to show")
-    with make(board_of_trace(trace, read_about(path), path.name)) as site:
+    with make(board_of_trace(trace, read_about(path), str(path))) as site:
         _announce(site, "trace", str(path), json)
         threading.Event().wait()
     return 0

@@ -6,9 +6,11 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from .._version import __version__
+from ..errors import ParameterError
 from ..report.palette import LABELS, MEANINGS, RANGES, STATE_LABELS, thresholds
 from ..types import NEURONS, STATES
 from .analysis import event_records
@@ -44,10 +46,27 @@ def about_run(mode: str, header: Mapping[str, Any], settings: LiveSettings | Non
 
 
 def board_of_trace(trace: NDArray[Any], header: Mapping[str, Any], name: str) -> Board:
-    """Return the board of a saved trace, TRACE_DTYPE (n,): all rows, all events, no pictures, nothing to change."""
+    """Return the board of a saved trace, TRACE_DTYPE (n,): all rows, all events, no pictures, nothing to change.
+
+    ``name`` is that of its file.
+
+    Raises
+    ------
+    ParameterError : a value that is not finite; the page could not show it
+    """
+    _require_finite(trace, name)
     rows = Rows()
     rows.put(0, rows_of(trace))
-    board = Board({**about_run("trace", header, None), "name": name}, rows)
+    board = Board({**about_run("trace", header, None), "name": Path(name).name}, rows)
     board.replace_events(event_records(trace))
     board.tell(complete=True, total=len(trace))
     return board
+
+
+def _require_finite(trace: NDArray[Any], name: str) -> None:
+    for column in ("time_s", *NEURONS):
+        wrong = np.flatnonzero(~np.isfinite(trace[column]))
+        if len(wrong):
+            raise ParameterError(
+                f"trace {name}: column {column}, row {wrong[0] + 1}: {trace[column][wrong[0]]}: must be finite"
+            )

@@ -21,8 +21,8 @@ class Access:
     """What a request must bring.
 
     ``names`` are the hosts that a request may name, lower case; ``any_address`` allows every IP address beside them:
-    who makes a name of their own point here cannot make it look like an address. ``token`` is None on loopback, where
-    it was not asked for. ``cookie`` is the name of the cookie that stands for it.
+    who makes a name of their own point here cannot make it look like an address. ``token`` is None where only this
+    machine can ask and none was wished for. ``cookie`` is the name of the cookie that stands for it.
     """
 
     names: frozenset[str]
@@ -49,7 +49,10 @@ class Access:
 
 
 def access_to(host: str, port: int, token: str | None, also_known_as: Sequence[str] = ()) -> Access:
-    """Return the access to a page served at ``host``; away from loopback a token is made where none is given.
+    """Return the access to a page served at ``host``; a token is made where one is needed and none is given.
+
+    It is needed away from loopback, and on loopback where the page has other names: they are those of a proxy, and what
+    comes through that comes from elsewhere.
 
     Raises
     ------
@@ -64,6 +67,7 @@ def access_to(host: str, port: int, token: str | None, also_known_as: Sequence[s
     if not local:
         here = socket.gethostname().lower()
         names |= {here, f"{here}.local"}
+    if not local or also_known_as:
         token = token or secrets.token_urlsafe(18)
     return Access(frozenset(names - {"0.0.0.0", "::"}), not local, token, f"lobula-{port}")
 

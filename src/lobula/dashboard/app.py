@@ -18,6 +18,7 @@ from ..errors import ParameterError
 from ..model.network import NetworkParams
 from .access import Access
 from .board import Board
+from .door import Door
 from .guard import Guard
 from .pages import page_files
 from .viewer import Streams
@@ -27,9 +28,6 @@ MOST_BODY = 16_384
 
 BODY_S = 10.0
 """A body that has not come whole after this long is given up, s."""
-
-AFTER_WRONG_TOKEN_S = 0.5
-"""So long whoever guesses tokens waits for each answer, s."""
 
 Toml = Callable[[NetworkParams], str]
 """Writes settings as ``lobula run --config`` reads them."""
@@ -45,8 +43,8 @@ class _BodyError(Exception):
 
 def make_app(board: Board, access: Access, executor: Executor, toml: Toml) -> ASGIApp:
     """Return the application that shows ``board`` to whom ``access`` lets in."""
-    files = page_files()
-    desk = _Desk(board, access, toml, files)
+    files, door = page_files(), Door(access)
+    desk = _Desk(board, access, door, toml, files)
     shown = [name for name in files if not name.endswith(".html")]
     routes = [
         Route("/", desk.index, methods=["GET"]),
@@ -57,15 +55,18 @@ def make_app(board: Board, access: Access, executor: Executor, toml: Toml) -> AS
         WebSocketRoute("/stream", Streams(board, executor).serve),
     ]
     unlocked = frozenset({"/login", "/theme.css", "/style.css", "/icon.svg"})
-    return Guard(Router(routes, redirect_slashes=False), desk.locked, access, unlocked)
+    return Guard(Router(routes, redirect_slashes=False), desk.locked, access, door, unlocked)
 
 
 class _Desk:
     """Answers the ordinary requests."""
 
-    def __init__(self, board: Board, access: Access, toml: Toml, files: dict[str, tuple[str, bytes]]) -> None:
+    def __init__(
+        self, board: Board, access: Access, door: Door, toml: Toml, files: dict[str, tuple[str, bytes]]
+    ) -> None:
         self._board = board
         self._access = access
+        self._door = door
         self._toml = toml
         self._files = files
 
@@ -93,10 +94,10 @@ class _Desk:
             answer: Response = PlainTextResponse("a token is needed\n", 401, {"www-authenticate": "Bearer"})
         elif given is None:
             answer = self._page("login.html", 401)
-        elif self._access.opened_by(token=given):
+        elif await self._door.opens_to(given):
             answer = self._with_cookie(self._page("index.html"))
         else:
-            answer = await self._wrong_token()
+            answer = self._wrong_token()
         await answer(scope, receive, send)
 
     async def log_in(self, request: Request) -> Response:
@@ -105,8 +106,8 @@ class _Desk:
             given = parse_qs((await _body(request)).decode("ascii", "replace")).get("token", [""])[0]
         except _BodyError as error:
             return error.answer
-        if not self._access.opened_by(token=given):
-            return await self._wrong_token()
+        if not await self._door.opens_to(given):
+            return self._wrong_token()
         return self._with_cookie(RedirectResponse("/", 303))
 
     async def change(self, request: Request) -> Response:
@@ -148,8 +149,7 @@ class _Desk:
         response.set_cookie(self._access.cookie, self._access.session, httponly=True, samesite="strict", path="/")
         return response
 
-    async def _wrong_token(self) -> Response:
-        await asyncio.sleep(AFTER_WRONG_TOKEN_S)
+    def _wrong_token(self) -> Response:
         media, content = self._files["login.html"]
         return Response(content.replace(b"<!--wrong-->", b"<p>That was not it.</p>"), 401, media_type=media)
 

@@ -7,14 +7,17 @@ import secrets
 import threading
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from .live_settings import LiveSettings
 from .rows import Rows
 from .scene import Scene
 
 MOST_EVENTS = 300
-"""Records of events kept for viewers who come later; the oldest go first."""
+"""Records of a live run's events kept for viewers who come later; the oldest go first."""
+
+MOST_RECORDED = 4000
+"""Records of a recording's events that are shown; the last to go are the alarms."""
 
 
 class Scenes(Protocol):
@@ -25,6 +28,14 @@ class Scenes(Protocol):
 
     def at(self, row: int, map_name: str | None) -> Scene:
         """Return the scene of ``row``; called by one thread at a time."""
+
+
+class Events(NamedTuple):
+    """What is told of events: how often that has changed, the records that are listed, all collisions there were."""
+
+    version: int
+    records: list[Mapping[str, Any]]
+    collisions: int
 
 
 class Viewer:
@@ -66,7 +77,7 @@ class Board:
         self.scenes = scenes
         self.scene: Scene | None = None
         self.status: Mapping[str, Any] = {}
-        self.events: tuple[int, list[Mapping[str, Any]]] = (0, [])
+        self.events = Events(0, [], 0)
         self.wanted_maps: frozenset[str] = frozenset()
         self.viewers: set[Viewer] = set()
         self._loop: asyncio.AbstractEventLoop | None = None
@@ -96,14 +107,17 @@ class Board:
 
         Of tries to open a source again only the newest is kept: a night without the camera is not to push out alarms.
         """
-        version, records = self.events
+        version, records, collisions = self.events
         again = bool(records) and _is_try(record) and _is_try(records[-1])
-        self.events = version + 1, [*(records[:-1] if again else records[1 - MOST_EVENTS :]), dict(record)]
+        kept = records[:-1] if again else records[1 - MOST_EVENTS :]
+        self.events = Events(version + 1, [*kept, dict(record)], collisions + _is_alarm(record))
         self.wake()
 
     def replace_events(self, records: Sequence[Mapping[str, Any]]) -> None:
         """Take the records of a recording in place of those that were there."""
-        self.events = self.events[0] + 1, list(records[-MOST_EVENTS:])
+        alarms_first = sorted(range(len(records)), key=lambda i: (records[i]["type"] != "collision", -i))
+        kept = [records[i] for i in sorted(alarms_first[:MOST_RECORDED])]
+        self.events = Events(self.events.version + 1, kept, sum(map(_is_alarm, records)))
         self.wake()
 
     def wake(self) -> None:
@@ -144,6 +158,10 @@ class Board:
         self._waking = False
         for viewer in self.viewers:
             viewer.wake.set()
+
+
+def _is_alarm(record: Mapping[str, Any]) -> bool:
+    return (record["type"], record["phase"]) == ("collision", "start")
 
 
 def _is_try(record: Mapping[str, Any]) -> bool:

@@ -14,6 +14,7 @@ from starlette.responses import PlainTextResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from .access import Access
+from .door import BusyError, Door
 
 SECURITY_HEADERS = {
     "content-security-policy": (
@@ -33,13 +34,14 @@ class Guard:
     """ASGI application that hands on to ``app`` what is in order and answers the rest itself.
 
     ``unlocked`` are the paths that need no token: the page that asks for it, and what that page is made of. A request
-    for another path without one is handed to ``login``.
+    for another path without one is handed to ``login``. Whatever of these finds the ``door`` busy may leave it at that.
     """
 
-    def __init__(self, app: ASGIApp, login: ASGIApp, access: Access, unlocked: frozenset[str]) -> None:
+    def __init__(self, app: ASGIApp, login: ASGIApp, access: Access, door: Door, unlocked: frozenset[str]) -> None:
         self._app = app
         self._login = login
         self._access = access
+        self._door = door
         self._unlocked = unlocked
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -52,32 +54,36 @@ class Guard:
                     headers[name] = value
             await send(message)
 
-        answer = self._answer(scope, Headers(scope=scope))
-        if scope["type"] == "websocket" and answer is not self._app:
-            await send({"type": "websocket.close", "code": 1008})  # before it is accepted: 403
-            return
-        await answer(scope, receive, careful)
+        try:
+            answer = await self._answer(scope, Headers(scope=scope))
+            if scope["type"] == "http" or answer is self._app:
+                await answer(scope, receive, careful)
+                return
+        except BusyError:
+            if scope["type"] == "http":
+                await _refused(429, "too many wrong tokens come in: try again in a moment")(scope, receive, careful)
+                return
+        await send({"type": "websocket.close", "code": 1008})  # before it is accepted: 403
 
-    def _answer(self, scope: Scope, headers: Headers) -> ASGIApp:
+    async def _answer(self, scope: Scope, headers: Headers) -> ASGIApp:
         hosts = headers.getlist("host")
         if len(hosts) != 1 or not self._access.names_this(hosts[0]):
             return _refused(421, "this page is not known by that host name: --allow-host NAME makes it so")
         if not _own_origin(headers, hosts[0]) or not _own_fetch(scope, headers):
             return _refused(403, "this request comes from another site")
-        if scope["path"] not in self._unlocked and not self._opened(headers):
+        if scope["path"] not in self._unlocked and not await self._opened(headers):
             return self._login
         return self._app
 
-    def _opened(self, headers: Headers) -> bool:
-        scheme, _, token = headers.get("authorization", "").partition(" ")
+    async def _opened(self, headers: Headers) -> bool:
         try:
             cookie = SimpleCookie(headers.get("cookie", "")).get(self._access.cookie)
         except CookieError:
             cookie = None
-        return self._access.opened_by(
-            token=token.strip() if scheme.lower() == "bearer" else None,
-            session=None if cookie is None else cookie.value,
-        )
+        if self._door.knows(None if cookie is None else cookie.value):
+            return True
+        scheme, _, token = headers.get("authorization", "").partition(" ")
+        return scheme.lower() == "bearer" and await self._door.opens_to(token.strip())
 
 
 def _own_origin(headers: Headers, host: str) -> bool:
@@ -85,7 +91,10 @@ def _own_origin(headers: Headers, host: str) -> bool:
     origins = headers.getlist("origin")
     if not origins:
         return True
-    return len(origins) == 1 and urlsplit(origins[0].lower()).netloc == host.lower()
+    try:
+        return len(origins) == 1 and urlsplit(origins[0].lower()).netloc == host.lower()
+    except ValueError:  # it is no address at all
+        return False
 
 
 def _own_fetch(scope: Scope, headers: Headers) -> bool:

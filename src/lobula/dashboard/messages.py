@@ -33,10 +33,10 @@ def message(board: Board, viewer: Viewer, scene: Scene | None) -> tuple[bytes, b
         viewer.greeted = True
         head["hello"] = board.about
     more = _add_rows(board, viewer, head, parts)
-    version, records = board.events
-    if version != viewer.events_version:
-        viewer.events_version = version
-        head["events"] = records
+    events = board.events
+    if events.version != viewer.events_version:
+        viewer.events_version = events.version
+        head["events"], head["collisions"] = events.records, events.collisions
     if board.settings is not None and board.settings.version != viewer.settings_version:
         head["settings"] = board.settings.values()
         viewer.settings_version = head["settings"]["version"]

@@ -1,4 +1,4 @@
-"""HTTP that does not wait for ever: who connects and does not say what it wants is let go."""
+"""HTTP that takes only so many connections and does not wait for ever for what they want."""
 
 from __future__ import annotations
 
@@ -7,18 +7,27 @@ from typing import Any
 
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+MOST_CONNECTIONS = 64
+"""Connections there may be at once, viewers' streams among them."""
+
 REQUEST_S = 10.0
 """A request whose head has not come whole after this long is given up, s."""
 
 
 class PromptHttp(H11Protocol):
-    """Closes connections that hold a place without asking for anything, such as those of a phone that has gone."""
+    """Closes connections above ``MOST_CONNECTIONS``: each is a file descriptor, and the detector needs some, too.
+
+    So it does with those that hold a place without asking for anything, such as those of a phone that has gone.
+    """
 
     _hurry: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: Any) -> None:
-        """Give the first request its time."""
+        """Give the first request its time, if there is a place."""
         super().connection_made(transport)
+        if len(self.connections) > MOST_CONNECTIONS:
+            transport.abort()
+            return
         self._begin()
 
     def data_received(self, data: bytes) -> None:

@@ -20,13 +20,16 @@ try:
     import uvicorn
 
     from .app import Toml, make_app
-    from .prompt_http import PromptHttp
+    from .prompt_http import MOST_CONNECTIONS, PromptHttp
 except ImportError as missing:
     raise MissingExtraError(
         f"the page needs starlette, uvicorn and websockets: {pip_install('dashboard')}"
     ) from missing
 
-MOST_CONNECTIONS = 64
+ACCEPTED_AT_ONCE = 16
+"""Connections taken from the system in one go: some four times as many can be open before the first of those above
+``MOST_CONNECTIONS`` is closed."""
+
 UNREAD_S = 30.0
 """A connection whose other end has taken nothing for so long is cut, s (where the system can, as Linux)."""
 
@@ -59,7 +62,7 @@ class Site:
         config = uvicorn.Config(
             make_app(board, self.access, self._executor, toml),
             http=PromptHttp, loop="asyncio", lifespan="off", log_config=None, log_level="error", access_log=False,
-            proxy_headers=False, server_header=False, limit_concurrency=MOST_CONNECTIONS, timeout_keep_alive=5,
+            proxy_headers=False, server_header=False, backlog=ACCEPTED_AT_ONCE, timeout_keep_alive=5,
             timeout_graceful_shutdown=1, h11_max_incomplete_event_size=16_384, ws_max_size=4096,
             ws_per_message_deflate=False,
         )  # fmt: skip
@@ -93,6 +96,8 @@ class Site:
         serving = asyncio.create_task(self._server.serve(sockets=[self._socket]))
         while not self._server.started and not serving.done():
             await asyncio.sleep(0.01)
+        if self._server.started:
+            self._socket.listen(MOST_CONNECTIONS)  # those in the system's queue hold none of our file descriptors
         self._ready.set()
         await serving
 

@@ -31,8 +31,8 @@ const stream = connect({
       settings.show(head.settings);
     }
     if (head.events) {
-      events.show(head.events);
-      collisions = new Set(head.events.filter(({ type }) => type === "collision").map(({ id }) => id)).size;
+      collisions = head.collisions;
+      events.show(head.events, collisions);
     }
     if (head.scene) {
       picture.show(head.scene, jpeg, map);
@@ -75,7 +75,7 @@ function greet(hello) {
   $("facts").textContent = facts(about.facts, about.lobula);
   timeline = live ? null : makeTimeline(record, () => { changed(); ask(); });
   events = makeEvents(about.states, about.neurons, timeline && ((at) => timeline.seek(at)));
-  events.show([]);
+  events.show([], 0);
   settings = trace || robot ? null : makeSettings(about.settings);
   traces = makeTraces($("traces"), about.neurons, settings && drag);
   if (trace || robot) {
@@ -161,7 +161,7 @@ function figures(state) {
   const rate = state === "stale" && !timeline ? 0 : ratePerSecond();
   shown.push(["frames / s", rate.toFixed(rate && rate < 10 ? 1 : 0)]);
   if (timeline) {
-    shown.push([counted(record.length, "frame"), record.length], [counted(collisions, "collision"), collisions]);
+    shown.push([counted(record.length, "frame"), record.length]);
     if (!status.complete) shown.push(["analysed", status.total ? `${Math.min(100, Math.round((100 * record.length) / status.total))} %` : "…"]);
   } else {
     if (status.latency) shown.push(["latency, median", milliseconds(status.latency.median)], ["latency, worst", milliseconds(status.latency.worst)]);
@@ -170,6 +170,7 @@ function figures(state) {
     if (status.motor) shown.push(["wheels", status.motor.replaceAll("_", " ")]);
     if (status.damaged) shown.push(["damaged", status.damaged, true]);
   }
+  shown.push([counted(collisions, "collision"), collisions]);
   shown.push([counted(status.viewers ?? 1, "viewer"), status.viewers ?? 1]);
   const text = JSON.stringify(shown);
   if (figures.last === text) return;

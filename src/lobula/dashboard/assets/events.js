@@ -1,8 +1,6 @@
 // What began and ended, newest first; in a recording a click goes there.
 
-import { potential } from "./words.js";
-
-const MOST = 200;
+import { counted, potential } from "./words.js";
 
 /** `go(time)` is null where there is nowhere to go. */
 export function makeEvents(states, neurons, go) {
@@ -10,13 +8,19 @@ export function makeEvents(states, neurons, go) {
   const named = Object.fromEntries(states.map(({ name, label }) => [name, label]));
 
   return {
-    show(records) {
-      const items = paired(records).slice(-MOST);
-      if (!go) items.reverse();
-      list.replaceChildren(...items.map((item) => entry(item, named, neurons, go)));
-      if (!items.length) list.append(Object.assign(document.createElement("li"), { className: "none", textContent: "nothing yet" }));
+    /** `collisions` there were, listed or not: a list ends somewhere. */
+    show(records, collisions) {
+      const items = paired(records), earlier = collisions - items.filter(({ type }) => type === "collision").length;
+      const lines = items.map((item) => entry(item, named, neurons, go));
+      if (earlier > 0) lines.unshift(note(`${earlier} ${counted(earlier, "earlier collision")} not listed`));
+      if (!go) lines.reverse();
+      list.replaceChildren(...(lines.length ? lines : [note("nothing yet")]));
     },
   };
+}
+
+function note(words) {
+  return Object.assign(document.createElement("li"), { className: "none", textContent: words });
 }
 
 /** Records as events with a start and, once it has come, an end. */
