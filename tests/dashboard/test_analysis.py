@@ -10,6 +10,7 @@ from lobula.dashboard import analysis as analysis_module
 from lobula.dashboard.analysis import Analysis, Pass, event_records
 from lobula.dashboard.recorded_scenes import RecordedScenes
 from lobula.engine.library import available
+from lobula.frames.jpeg import Jpeg
 from lobula.params import with_settings
 from lobula.runtime.events import EventLog, reading_of
 from lobula.runtime.explanation import explain
@@ -92,6 +93,17 @@ def test_the_scene_of_any_row_is_that_of_the_run(clip, memory_bytes):
         assert scene.jpeg.startswith(b"\xff\xd8")
     assert scenes.at(50, None).maps == {}
     assert scenes.at(10_000, None).number == 90
+    scenes.close()
+
+
+def test_a_picture_of_a_recording_is_encoded_once_for_all_viewers(clip, monkeypatch):
+    made, encode = [], Jpeg.__call__
+    monkeypatch.setattr(Jpeg, "__call__", lambda self, picture: made.append(0) or encode(self, picture))
+    found = Analysis(recording(clip))
+    found.run(PARAMS, lambda first, rows: None, lambda: False)
+    scenes = RecordedScenes(found)
+    jpegs = {scenes.at(row, "lamina").jpeg for row in (40, 41, 40, 41, 40, 41)}
+    assert len(made) == len(jpegs) == 2
     scenes.close()
 
 

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 import lobula
+from lobula.dashboard import board as board_module
 from lobula.dashboard.about import about_run, board_of_trace
 from lobula.dashboard.analysis import Analysis
 from lobula.dashboard.board import Board
@@ -30,6 +31,7 @@ from lobula.runtime.header import run_header
 from .chromium import Chromium, Page, find_chromium
 from .clips import approach, recording
 from .stage import live, toml
+from .test_saved_trace import trace as long_trace
 
 PROGRAM = find_chromium()
 pytestmark = pytest.mark.skipif(
@@ -46,7 +48,9 @@ COLOURED = (
     "return p.getImageData(0, 0, 99, 72).data.some((v, i) => i % 4 === 3 && v > 40) })()"
 )
 CLOCK = "document.querySelector('#clock').textContent"
-
+FIGURES = "document.querySelector('#figures').textContent"
+LISTED = "document.querySelectorAll('#list li.collision').length"
+NOT_LISTED = "document.querySelector('#list .none')?.textContent"
 
 SIZES = [("wide", 1440, 900), ("middle", 1000, 760), ("narrow", 390, 844), ("tiny", 320, 568)]
 
@@ -184,6 +188,22 @@ class TestLive:
                 page.until("!document.body.classList.contains('lost') && document.querySelector('#notice').hidden")
                 page.until(f"(window.before ??= {TRACE}) !== {TRACE}")  # whatever is loaded anew meanwhile
 
+    def test_collisions_that_are_no_longer_listed_are_counted(self, browser, images):
+        header = {"source": "camera"}
+        board = Board(about_run("live", header, LiveSettings(lobula.preset(), "default")), Rows(keep=64))
+        board.rows.append(0, lobula.Network().step(images[0], 0.0))
+        for number in range(1, 201):
+            for phase in ("start", "end"):
+                board.add_event({"type": "collision", "phase": phase, "id": number, "frame": 0, "time_s": 2.0 * number})
+        with Site(board, toml) as site, seen(browser, site.url) as page:
+            page.until(f"{FIGURES}.includes('200collisions')")
+            assert page.js(LISTED) == 150
+            assert page.js("document.querySelector('#list li b').textContent") == "Collision 200"
+            assert page.js("document.querySelector('#list li:last-child').textContent") == (
+                "50 earlier collisions not listed"
+            )
+            shown(page, "many-collisions")
+
     def test_the_token_is_asked_for_and_leaves_the_address(self, browser, images):
         with live(images, token="correct horse battery") as stage:
             with seen(browser, stage.site.url, expected="401") as page:
@@ -227,6 +247,17 @@ class TestARecording:
             page.until("!document.querySelector('#list li.collision')")
             page.until(f"document.querySelector('#timeline canvas').toDataURL() !== {strip!r}")
             page.until("document.querySelector('#figures').textContent.includes('0collisions')")
+
+    def test_a_long_one_counts_and_lists_every_collision(self, browser, monkeypatch):
+        with Site(board_of_trace(long_trace(500), {}, "a.npz"), toml) as site, seen(browser, site.url) as page:
+            page.until(f"{FIGURES}.includes('500collisions')")
+            assert page.js(LISTED) == 500
+            assert page.js(NOT_LISTED) is None
+        monkeypatch.setattr(board_module, "MOST_RECORDED", 400)
+        with Site(board_of_trace(long_trace(500), {}, "b.npz"), toml) as site, seen(browser, site.url) as page:
+            page.until(f"{FIGURES}.includes('500collisions')")
+            assert page.js(LISTED) == 200
+            assert page.js(NOT_LISTED) == "300 earlier collisions not listed"
 
     def test_a_saved_trace_has_curves_and_no_pictures(self, browser):
         movie = lobula.stimuli.looming(scene="arena", speed_cm_s=12.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import socket
 import time
+from contextlib import ExitStack
 
 import av
 import numpy as np
@@ -15,6 +16,7 @@ import lobula
 from lobula.dashboard import server, viewer
 from lobula.dashboard.about import board_of_trace
 from lobula.dashboard.server import Site
+from lobula.frames.jpeg import Jpeg
 from lobula.types import NEURONS, TRACE_DTYPE
 
 from .stage import Watcher, ask, live, toml
@@ -101,6 +103,30 @@ class TestWhatIsSent:
         while stage.board.wanted_maps and time.monotonic() < deadline_s:
             time.sleep(0.02)
         assert stage.board.wanted_maps == frozenset()  # who leaves wants nothing any more
+
+    def test_a_picture_is_encoded_once_for_all_viewers(self, movie, monkeypatch):
+        made, encode = [], Jpeg.__call__
+
+        def counted(self, picture):
+            made.append(encode(self, picture))
+            return made[-1]
+
+        monkeypatch.setattr(Jpeg, "__call__", counted)
+        got = [{} for _ in range(4)]
+        with live(movie, rate_hz=60.0) as stage, ExitStack() as stack:
+            watchers = [stack.enter_context(Watcher(stage.site)) for _ in got]
+            for watcher in watchers:
+                watcher.send({"map": "motion"})
+            while min(map(len, got)) < 15:
+                for watcher, scenes in zip(watchers, got, strict=True):
+                    message = watcher.until(lambda m: m.jpeg and m.map is not None)
+                    scenes[message.head["scene"]["number"]] = message.jpeg, message.map.tobytes()
+        assert len(made) == stage.board.scene.number  # scenes are numbered from 1
+        shared = set.intersection(*map(set, got))
+        assert len(shared) > 1
+        for number in shared:
+            assert {scenes[number] for scenes in got} == {got[0][number]}
+            assert got[0][number][0] == made[number - 1]
 
     def test_how_fast_it_is_and_what_was_dropped(self, stage):
         with Watcher(stage.site) as watcher:
