@@ -1,8 +1,7 @@
-"""What people see on a terminal: a stand-in for one, since a test has none."""
+"""What people see on a terminal."""
 
 from __future__ import annotations
 
-import io
 import sys
 
 import numpy as np
@@ -12,11 +11,7 @@ from lobula.cli.progress import screen
 from lobula.frames import open as open_frames
 
 from ..frames.scripted_camera import ScriptedCamera
-
-
-class Terminal(io.StringIO):
-    def isatty(self):
-        return True
+from .terminal import Terminal
 
 
 def test_the_words_before_the_bar_change_once_a_second(monkeypatch):

@@ -16,6 +16,8 @@ from lobula.stimuli.battery import battery
 pytest.importorskip("optuna", reason="the extra tune is not installed")
 pytest.importorskip("matplotlib", reason="the extra plot is not installed")
 
+from .terminal import Terminal
+
 NAMES = ("looming-dark-12cm_s", "looming-arena", "translating_right-dark-12cm_s", "translating_right-arena")
 SHORT = ("tune", "--on", "battery", "--out", "t", "--workers", "1")
 HEADING = "file,collision,contact_frame,contact_uncertainty_frames,group,split,confidence\n"
@@ -81,6 +83,16 @@ class TestBattery:
         assert {path.name for path in (tmp_path / "t").iterdir()} == {
             "best.toml", "front", "front.png", "front.svg", "journal.log", "search.json", "trials.csv", "tuning.json"
         }  # fmt: skip
+
+    def test_a_bar_on_a_terminal(self, call, tiny, monkeypatch):
+        terminal = Terminal()
+        monkeypatch.setattr(sys, "stderr", terminal)
+        monkeypatch.setenv("TERM", "xterm")
+        assert call(*SHORT, "--trials", "3", "--vary", "lgmd1.sigmoid_grey=x2").code == 0
+        shown = terminal.getvalue()
+        assert "movies made" in shown
+        assert "trials" in shown
+        assert "3/3" in shown
 
     def test_what_was_found_is_a_settings_file(self, call, tmp_path, tiny, clip):
         done = call(*SHORT, "--trials", "3", "--vary", "lgmd?.sigmoid_grey=0.001..0.002", "--set",
