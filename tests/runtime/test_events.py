@@ -31,7 +31,7 @@ def test_a_restart_within_half_a_second_is_the_same_event():
     assert feed(log, 6, collision=True) == []  # 0.5 s after the end at 0.1 s: just within
     assert feed(log, 7) == []
     assert [r["frame"] for r in log.finish()] == [7]
-    assert len(log.collisions) == 1
+    assert log.count == 1
 
 
 def test_a_later_restart_is_another_event():

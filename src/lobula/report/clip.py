@@ -10,6 +10,7 @@ from typing import Any
 
 from ..errors import OutputError
 from ..landing import part_of
+from .memory import give_back
 from .mp4 import Mp4File
 from .ring import Slot
 from .trace import TraceWriter
@@ -60,7 +61,7 @@ class Finisher:
 
     def take(self, clip: Clip) -> None:
         """Finish ``clip`` when its turn comes."""
-        self._under_way.append(self._thread.submit(clip.finish))
+        self._under_way.append(self._thread.submit(_finish, clip))
 
     def outcomes(self) -> list[OutputError | None]:
         """Return what became of the clips that are done since the last call, oldest first; None is success."""
@@ -75,6 +76,13 @@ class Finisher:
     def close(self) -> None:
         """Wait until all are done."""
         self._thread.shutdown()
+
+
+def _finish(clip: Clip) -> None:
+    try:
+        clip.finish()
+    finally:
+        give_back()
 
 
 def free_name(folder: Path, stem: str) -> Path:

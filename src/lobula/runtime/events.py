@@ -41,10 +41,12 @@ class EventLog:
     """Turns readings, one by one, into the records of the events they start and end.
 
     A start is told at once. The end of a collision is held back until it cannot start again within ``REJOIN_S``.
+    ``count`` is how many have begun, ``latest`` the last of them: a camera may run for weeks, so no others are kept.
     """
 
     def __init__(self) -> None:
-        self.collisions: list[Collision] = []
+        self.count = 0
+        self.latest: Collision | None = None
         self._open: Collision | None = None
         self.state: State = "ok"
         self._entered_s = 0.0
@@ -110,11 +112,10 @@ class EventLog:
         strength = min(reading.lgmd1, reading.lgmd2)
         event = self._open
         if event is None:
-            event = Collision(
-                id=len(self.collisions) + 1, start_frame=index, start_s=reading.time_s, peak_frame=index, peak=strength
+            self.count += 1
+            event = self._open = self.latest = Collision(
+                id=self.count, start_frame=index, start_s=reading.time_s, peak_frame=index, peak=strength
             )
-            self.collisions.append(event)
-            self._open = event
             return [_start_record(event, reading)]
         event.end_frame = None
         if strength > event.peak:
@@ -125,10 +126,13 @@ class EventLog:
 def collisions_of(trace: NDArray[np.void]) -> list[Collision]:
     """Return the collision events of a whole trace, (n,) TRACE_DTYPE, oldest first."""
     log = EventLog()
+    found: list[Collision] = []
     for row in trace:
         log.step(int(row["frame"]), reading_of(row))
+        if log.latest is not None and log.count > len(found):
+            found.append(log.latest)
     log.finish()
-    return log.collisions
+    return found
 
 
 def reading_of(row: np.void) -> Reading:

@@ -83,7 +83,7 @@ class Tally:
     def words(self) -> str:
         """Return in one line how the run fares."""
         state = self.log.state.replace("_", " ")
-        text = f"{state}; collisions {len(self.log.collisions)}, dropped {self._source.dropped}, lost {self._lost}"
+        text = f"{state}; collisions {self.log.count}, dropped {self._source.dropped}, lost {self._lost}"
         if self._latencies:
             text += f"; latency {1000 * self._latencies.median_s():.1f} ms, worst {1000 * self._latencies.worst_s:.0f}"
         return text
@@ -101,7 +101,7 @@ class Tally:
             "frames": self.frames,
             "dropped": self._source.dropped,
             "damaged": self._source.damaged,
-            "collisions": len(self.log.collisions),
+            "collisions": self.log.count,
             "duration_s": round(duration_s, 6),
             "ms_per_frame": round(1000 * self._steps.median_s(), 4),
             "ms_worst": round(1000 * self._steps.worst_s, 4),
