@@ -117,13 +117,11 @@ class TestWhatIsSent:
             watchers = [stack.enter_context(Watcher(stage.site)) for _ in got]
             for watcher in watchers:
                 watcher.send({"map": "motion"})
-            while min(map(len, got)) < 15:
+            while len(shared := set.intersection(*map(set, got))) < 3:  # each may skip others under load
                 for watcher, scenes in zip(watchers, got, strict=True):
                     message = watcher.until(lambda m: m.jpeg and m.map is not None)
                     scenes[message.head["scene"]["number"]] = message.jpeg, message.map.tobytes()
         assert len(made) == stage.board.scene.number  # scenes are numbered from 1
-        shared = set.intersection(*map(set, got))
-        assert len(shared) > 1
         for number in shared:
             assert {scenes[number] for scenes in got} == {got[0][number]}
             assert got[0][number][0] == made[number - 1]

@@ -109,6 +109,11 @@ class TestFile:
         [
             ({"trace": np.zeros(3)}, FrameSourceError, r"a\.npz: holds no images: must be a file of numpy\.savez with"),
             ({"images": np.array([None])}, FrameSourceError, r"a\.npz: not such a file: must be"),
+            (
+                {"images": IMAGES, "times_s": np.array(list("abcd"))},
+                FrameSourceError,
+                r"a\.npz: not such a file: must be",
+            ),
             ({"images": IMAGES[0]}, ShapeError, r"a\.npz: .*must be \(T, H, W\)"),
             ({"images": IMAGES, "times_s": np.zeros(3)}, ShapeError, r"a\.npz: times_s of shape \(3,\)"),
             ({"images": IMAGES, "times_s": np.zeros(4)}, TimeError, r"a\.npz: frame 1: time stands still"),

@@ -1,5 +1,6 @@
 """Clips of alarms: which frames are in them, which alarms share one, what a full disk does to them."""
 
+import errno
 import os
 import re
 from pathlib import Path
@@ -260,3 +261,14 @@ def test_a_folder_one_may_not_write_into_is_found_before_the_first_frame(tmp_pat
 def test_looking_into_the_folder_leaves_nothing_there(tmp_path):
     KeptClips(tmp_path).open(HEADER)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_disk_that_is_full_at_the_start_may_have_room_later(tmp_path, monkeypatch):
+    def full(**_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("lobula.report.kept.TemporaryFile", full)
+        sink = KeptClips(tmp_path / "clips")
+        sink.open(HEADER)
+    sink.close({})

@@ -88,6 +88,8 @@ def _complain(message: str, code: int) -> int:
 
 def _flushed(code: int) -> int:
     """Flush what was printed and return the exit code: a reader that has gone is no fault, a full disk is."""
+    if sys.stdout is None:
+        return code
     try:
         sys.stdout.flush()
     except OSError as error:
@@ -97,6 +99,7 @@ def _flushed(code: int) -> int:
     return code
 
 
-def _silence(stream: TextIO) -> None:
+def _silence(stream: TextIO | None) -> None:
     """Point the stream's descriptor nowhere, or Python complains about it once more at exit."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+    if stream is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

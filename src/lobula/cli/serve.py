@@ -55,7 +55,10 @@ def serve(
     ] = None,
     allow_host: Annotated[
         list[str] | None,
-        typer.Option(metavar="NAME", help="another name the page is reached by, as behind a proxy: needs a token; may be repeated"),
+        typer.Option(
+            metavar="NAME",
+            help="another name the page is reached by, as behind a proxy: needs a token; may be repeated",
+        ),
     ] = None,
     hook: HookTargets = None,
     hook_rate: HookRate = None,
@@ -85,8 +88,8 @@ def serve(
 ) -> int:
     """Show SOURCE in a browser: picture, traces, events, thresholds that can be changed while it runs.
 
-    A recording or a saved trace is replayed, with scrubbing. Ctrl-C ends it. Away from 127.0.0.1, and with --allow-host,
-    a token is needed; the link with it is shown once, here.
+    A recording or a saved trace is replayed, with scrubbing. Ctrl-C ends it. Away from
+    127.0.0.1, and with --allow-host, a token is needed; the link with it is shown once, here.
     """
     from ..dashboard.live_settings import LiveSettings
     from ..dashboard.server import Site

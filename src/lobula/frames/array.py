@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import zipfile
-import zlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -76,10 +74,10 @@ def open_npz(path: str, rate_hz: float | None = None) -> ArrayReader:
         with np.load(Path(path), allow_pickle=False) as file:
             if "images" not in file:
                 raise FrameSourceError(f"{path}: holds no images: {allowed}")
-            times_s = file["times_s"] if rate_hz is None and "times_s" in file else None
+            times_s = file["times_s"].astype(np.float64) if rate_hz is None and "times_s" in file else None
             images = file["images"]
     except FrameSourceError:
         raise
-    except (OSError, ValueError, EOFError, TypeError, zipfile.BadZipFile, zlib.error) as error:
+    except Exception as error:  # a damaged file can raise what its zip, its compressor, its headers or its size will
         raise FrameSourceError(f"{path}: {getattr(error, 'strerror', None) or 'not such a file'}: {allowed}") from error
     return ArrayReader(images, times_s, rate_hz, path)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..runtime.events import Record
-from ..runtime.sinks import Picture, Sink
+from ..runtime.sinks import Picture, Sink, WakefulSink
 from ..types import Reading
 from .office import PostOffice
 
@@ -38,6 +38,8 @@ class Telling:
         """Tell the news, though no frame comes."""
         self._at = {"frame": index, "time_s": round(time_s, 6)}
         self._tell()
+        if isinstance(self._reader, WakefulSink):
+            self._reader.silence(index, time_s)
 
     def event(self, record: Mapping[str, Any]) -> None:
         """Hand on a record, after the news."""

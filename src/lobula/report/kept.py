@@ -11,6 +11,7 @@ from typing import Any
 
 from ..errors import OutputError, ParameterError
 from ..landing import writing
+from ..runtime.outputs import disk_failed
 from ..runtime.sinks import OutputLapseError, Picture
 from ..types import Reading
 from .clip import Clip, Finisher, free_name
@@ -66,12 +67,17 @@ class KeptClips:
 
         Raises
         ------
-        OutputError : it cannot
+        OutputError : it cannot, and not because the disk is full, which may be over by then
         """
         self._header = header
         with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
-            TemporaryFile(dir=self.folder).close()
+        try:
+            with writing(self.folder):
+                TemporaryFile(dir=self.folder).close()
+        except OutputError as error:
+            if not disk_failed(error):
+                raise
 
     def frame(self, index: int, reading: Reading, picture: Picture | None) -> None:
         """Encode one picture into the ring and, during a clip, into that.

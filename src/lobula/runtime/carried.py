@@ -16,8 +16,9 @@ class Carried:
 
     Raises
     ------
-    OutputLapseError : from any call, once, when records are lost because nobody reads; from ``close`` with their number
-    OutputError : from any call after one in which ``sink`` raised it
+    OutputLapseError : with a frame or a silence, once, when records are lost because nobody reads; from ``close`` with
+        their number
+    OutputError : likewise, and from then on, what ``sink`` raised
     """
 
     def __init__(self, sink: Sink, name: str, patience_s: float = PATIENCE_S) -> None:
@@ -41,7 +42,6 @@ class Carried:
     def event(self, record: Mapping[str, Any]) -> None:
         """Hand on a record."""
         self._courier.send(partial(self._sink.event, dict(record)))
-        self._look()
 
     def silence(self, index: int, time_s: float) -> None:
         """See how the sink fares, though no frame comes."""

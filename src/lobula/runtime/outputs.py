@@ -48,7 +48,7 @@ class Outputs:
             try:
                 sink.open(header)
             except LobulaError as error:
-                if not (isinstance(error, ReaderGoneError) or _disk_failed(error)):
+                if not (isinstance(error, ReaderGoneError) or disk_failed(error)):
                     raise
                 self._fail(error)
             else:
@@ -102,5 +102,6 @@ class Outputs:
             self._tell(line)
 
 
-def _disk_failed(error: BaseException) -> bool:
+def disk_failed(error: BaseException) -> bool:
+    """Whether it is the disk that failed, and not the request that was wrong."""
     return getattr(error.__cause__, "errno", None) in _DISK_FAILED

@@ -10,7 +10,7 @@ from .interrupts import Interrupted, raised_at_once
 
 
 def exit_code(error: LobulaError) -> int:
-    """Return 3 for what broke on the way, a source or an output, and 2 for what was wrong from the start."""
+    """Return 3 for an output that cannot be written and a source that broke on the way, 2 for anything else."""
     on_the_way = isinstance(error, OutputError) or (isinstance(error, FrameSourceError) and error.on_the_way)
     return 3 if on_the_way else 2
 
@@ -24,12 +24,17 @@ def run_script(work: Callable[[], None], if_interrupted: str = "") -> int:
         with raised_at_once():
             work()
     except LobulaError as error:
-        print(f"lobula: {error}", file=sys.stderr)
+        _say(f"lobula: {error}")
         return exit_code(error)
     except Interrupted as stop:
-        print(f"lobula: interrupted ({stop}){'; ' if if_interrupted else ''}{if_interrupted}", file=sys.stderr)
+        _say(f"lobula: interrupted ({stop}){'; ' if if_interrupted else ''}{if_interrupted}")
         return stop.exit_code
     return 0
+
+
+def _say(text: str) -> None:
+    if sys.stderr is not None:  # as it is in a program that was started without one
+        print(text, file=sys.stderr)
 
 
 def counter(total: int, things: str) -> Callable[[], None]:
@@ -39,7 +44,7 @@ def counter(total: int, things: str) -> Callable[[], None]:
     def step() -> None:
         nonlocal done
         done += 1
-        if sys.stderr.isatty():
+        if sys.stderr is not None and sys.stderr.isatty():
             print(f"\r{done} of {total} {things}", end="\n" if done == total else "", file=sys.stderr, flush=True)
 
     return step

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import select
 from typing import Protocol, TextIO
 
 
@@ -32,11 +33,22 @@ class Unbuffered:
         """
         data = text.encode("utf-8", "backslashreplace")
         while data:
-            data = data[os.write(self._number, data) :]
+            try:
+                data = data[os.write(self._number, data) :]
+            except BlockingIOError:  # whoever made the file wanted nobody to wait in it
+                select.select([], [self._number], [])
         return len(text)
 
     def flush(self) -> None:
         """Nothing waits here."""
+
+    def fileno(self) -> int:
+        """Return the file's number."""
+        return self._number
+
+    def isatty(self) -> bool:
+        """Return whether it is a terminal."""
+        return os.isatty(self._number)
 
 
 def unbuffered(stream: TextIO) -> Writable:
