@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import math
+import signal
 import sys
 
 import numpy as np
 import pytest
 
 from lobula.overhead import Room, TopCameraParams, TopView
+from lobula.overhead.detection import MarkerFinder
 from lobula.report.grey_clip import write_grey_clip
 
 pytest.importorskip("cv2")
@@ -157,6 +159,21 @@ def test_a_video_without_patterns(call, view):
     done = call("track", "empty.mp4", *GOOD)
     assert (done.code, done.err.count("\n")) == (2, 1)
     assert "empty.mp4: no ID pattern in 3 frames" in done.err
+
+
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGTERM, 143), (signal.SIGINT, 130)])
+def test_a_signal_before_there_are_tracks(call, clip, tmp_path, monkeypatch, number, code):
+    find = MarkerFinder.find
+
+    def signalled(self, picture, row=0):
+        if row == 3:
+            signal.raise_signal(number)
+        return find(self, picture, row)
+
+    monkeypatch.setattr(MarkerFinder, "find", signalled)
+    done = call("track", clip, "--room", "36x28", "--corner-ids", "46-49")
+    assert (done.code, done.err) == (code, f"lobula: interrupted ({number.name})\n")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_torn_video_gives_what_it_holds(call, clip, corners, tmp_path):

@@ -219,6 +219,29 @@ class TestStopped:
         assert len(tracks.rows) == 35
         assert tracks.summary()["status"] == "SIGINT"
 
+    def test_an_interruption_is_no_finding(self, plain):
+        _, images, _ = plain
+
+        def advance():
+            raise Interrupted(15)
+
+        # no marker 46 in the one frame that was read: nobody knows of the others
+        with pytest.raises(Interrupted) as stop:
+            track(images, ROOM, Reference(corner_ids=[46, 47, 48, 49]), rate_hz=30.0, advance=advance)
+        assert stop.value.exit_code == 143
+        with pytest.raises(Interrupted):
+            track(images, ROOM, Reference(px_per_cm=5.0), rate_hz=30.0, advance=advance)
+
+    def test_a_torn_video_says_so_before_what_is_missing_in_it(self, plain, tmp_path):
+        _, images, _ = plain
+        path = Path(encoded(tmp_path / "clip.mp4", images))
+        path.write_bytes(path.read_bytes()[: path.stat().st_size * 8 // 10])
+        with pytest.raises(
+            FrameSourceError, match=r"damaged or cut off after .*; until there: corner marker 46"
+        ) as torn:
+            track(path, ROOM, Reference(corner_ids=[46, 47, 48, 49]))
+        assert torn.value.on_the_way
+
     def test_a_torn_video_keeps_what_was_read(self, plain, tmp_path):
         _, images, reference = plain
         path = Path(encoded(tmp_path / "clip.mp4", images))  # its index comes first

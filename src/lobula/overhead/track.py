@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..errors import FrameSourceError, ParameterError
+from ..errors import FrameSourceError, LobulaError, ParameterError
 from ..frames import FrameSource
 from ..runtime.interrupts import Interrupted
 from ..runtime.opening import open as open_frames
@@ -49,6 +49,7 @@ def track(
     ------
     FrameSourceError : the source cannot be opened, or shows no ID pattern
     ParameterError : a source that is not recorded, or a reference that does not fit what is seen
+    Interrupted : a signal came before there were tracks
     MissingExtraError : OpenCV is not installed
     """
     marker, params = marker or MarkerParams(), params or TrackParams()
@@ -60,6 +61,34 @@ def track(
             reference.calibration(room, lens, marker)  # wrong corners are told before the work, not after it
         watched = _watch(frames, finder, advance)
         notes = [*frames.notes, *reference.notes(marker)]
+    try:
+        return _tracks(watched, name, lens, notes, room, reference, marker, params, wanted)
+    except LobulaError as error:  # what was read may be too little: no reason to find fault with the rest
+        if isinstance(watched.stopped, Interrupted):
+            raise watched.stopped from error
+        if watched.stopped is not None:
+            raise FrameSourceError(f"{watched.stopped}; until there: {error}", on_the_way=True) from error
+        raise
+
+
+class _Watched(NamedTuple):
+    """Everything that looks like an ID pattern, the frames' numbers and times, and what ended it too early.
+
+    ``image`` is a frame with as many patterns as any, ``shown`` says which.
+    """
+
+    found: NDArray[np.void]
+    numbers: NDArray[np.int64]
+    times_s: NDArray[np.float64]
+    stopped: FrameSourceError | Interrupted | None
+    image: NDArray[Any]
+    shown: int
+
+
+def _tracks(
+    watched: _Watched, name: str, lens: Lens, notes: list[str], room: Room, reference: Reference, marker: MarkerParams,
+    params: TrackParams, wanted: tuple[int, ...] | None,
+) -> Tracks:  # fmt: skip
     frames_seen = f"in {len(watched.numbers)} frames"
     if not len(watched.found):
         raise FrameSourceError(
@@ -69,7 +98,7 @@ def track(
     calibration = reference.calibration(room, lens, marker, watched.found)
     robots = watched.found[~np.isin(watched.found["id"], list(reference.corner_ids or ()))]
     sightings = Sightings(robots, watched.numbers, watched.times_s, calibration, marker)
-    notes += sightings.sift(room, params, wanted)
+    notes = [*notes, *sightings.sift(room, params, wanted)]
     rows = sightings.rows
     if not len(rows):
         why = ", ".join(f"{reason}: {count}" for reason, count in sightings.left_out.items())
@@ -93,20 +122,6 @@ def track(
         stopped=watched.stopped,
         draw=partial(overlay, watched.image, room, ground, calibration, shown, marker),
     )
-
-
-class _Watched(NamedTuple):
-    """Everything that looks like an ID pattern, the frames' numbers and times, and what ended it too early.
-
-    ``image`` is a frame with as many patterns as any, ``shown`` says which.
-    """
-
-    found: NDArray[np.void]
-    numbers: NDArray[np.int64]
-    times_s: NDArray[np.float64]
-    stopped: FrameSourceError | Interrupted | None
-    image: NDArray[Any]
-    shown: int
 
 
 def frame_count(source: Any, **opening: Any) -> int | None:
