@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -101,6 +102,55 @@ def test_a_report_folder_that_cannot_be_made_refuses_the_run(call, own, monkeypa
     done = call("run", "q.mp4", "--json", "--report", "r")
     assert (done.code, done.err) == (2, "lobula: cannot write r: no permission\n")
     assert [r["status"] for r in done.records] == ["refused"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "named"),
+    [
+        (["run", "q.mp4", "--annotate", "/proc/a.mp4"], "/proc/a.mp4"),
+        (["run", "q.mp4", "--record", "/proc/a.mp4"], "/proc/a.mp4"),
+        (["explain", "q.mp4", "--at", "1", "--out", "/proc/a.png"], "/proc/a.png"),
+        (["plot", "t.csv", "--out", "/proc/a.png"], "/proc/a.png"),
+        (["demo", "--out", "/proc/a.png"], "/proc/a.png"),
+        (["stimulus", "flash", "--out", "/proc/a.mp4"], "/proc/a.mp4"),
+        (["arena", "--save", "a.npz", "--save", "/proc/a.npz"], "/proc/a.npz"),
+        (["arena", "--save", "/proc/a.mp4"], "/proc/a.mp4"),
+        (["arena", "--events", "/proc/e.csv"], "/proc/e.csv"),
+        (["arena", "--checkpoint", "/proc/ck"], "/proc/ck"),
+        (["track", "q.mp4", "--room", "70x55", "--px-per-cm", "10", "--out", "/proc/t.csv"], "/proc/t.csv"),
+        (["track", "--print", "/proc/ids.pdf"], "/proc/ids.pdf"),
+    ],
+)
+@pytest.mark.skipif(not Path("/proc/self").exists(), reason="no folder that nobody may write in")
+def test_a_folder_in_which_nothing_can_be_made_is_refused_before_the_work(call, own, monkeypatch, arguments, named):
+    def worked(*_, **__):
+        raise AssertionError("the work began")
+
+    (own / "t.csv").write_text("")
+    for work in ("lobula.runtime.loop.run", "lobula.arena.running.run", "lobula.overhead.track"):
+        monkeypatch.setattr(work, worked)
+    before = contents(own)
+    done = call(*arguments)
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    assert f"cannot write {named}: no file can be made there" in done.err
+    assert contents(own) == before
+
+
+def test_no_permission_is_said_before_the_work_and_trying_leaves_nothing(call, own, monkeypatch):
+    (own / "rod").mkdir()
+    assert call("run", "q.mp4", "--annotate", "rod/a.mp4", "--end", "0.2").code == 0
+    assert [path.name for path in (own / "rod").iterdir()] == ["a.mp4"]
+
+    def read_only(**_):
+        raise PermissionError(errno.EACCES, "Permission denied")
+
+    monkeypatch.setattr("tempfile.TemporaryFile", read_only)
+    done = call("arena", "--events", "rod/e.csv")
+    says = "lobula: cannot write rod/e.csv: no permission: must lie in a folder that files can be made in\n"
+    assert (done.code, done.err) == (2, says)
+    # the rows of a trace go to the file that is there: no other is made
+    (own / "rod" / "t.csv").write_text("")
+    assert call("run", "q.mp4", "--trace", "rod/t.csv", "--end", "0.2").code == 0
 
 
 def test_outputs_beside_the_source_are_fine(call, own):

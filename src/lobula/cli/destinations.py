@@ -13,12 +13,16 @@ Inputs = Mapping[str, str | Path | None]
 """What is read, by what it is called: a path, a pattern, or None; cameras, pipes and addresses name no file."""
 
 
+_OPENED_FIRST = ("--trace", "hook ")
+"""Options whose files are opened before the work, under their own names: one that is there needs no new file."""
+
+
 def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None, made: Path | None = None) -> None:
     """Check the files that are to be written, by their option; ``made`` is a folder that will be there by then.
 
     Raises
     ------
-    ParameterError : an output is one of the inputs or another output, is a folder, or lies in no folder
+    ParameterError : an output is one of the inputs or another output, is a folder, or lies where no file can be made
     """
     from ..landing import part_of
 
@@ -38,6 +42,8 @@ def check_files(outputs: Mapping[str, Path | None], inputs: Inputs | None = None
                     )
         if not path.parent.is_dir() and (made is None or path.parent.resolve() != made.resolve()):
             raise ParameterError(f"cannot write {path}: no such folder {path.parent}")
+        if path.parent.is_dir() and not option.startswith(_OPENED_FIRST):
+            _try_folder(path)
         if path.resolve() in taken:
             raise ParameterError(f"{option} {path}: is written by {taken[path.resolve()]} too: must be another file")
         taken[path.resolve()] = option
@@ -81,6 +87,19 @@ def make_folder(option: str, folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     if not os.access(folder, os.W_OK | os.X_OK):
         raise OutputError(f"cannot write {folder}: no permission")
+
+
+def _try_folder(path: Path) -> None:
+    """See that files can be made beside ``path``: what permissions say is not all that forbids it."""
+    from tempfile import TemporaryFile
+
+    from ..landing import writing
+
+    try:
+        with writing(path), TemporaryFile(dir=path.parent):
+            pass
+    except OutputError as error:
+        raise ParameterError(f"{error}: must lie in a folder that files can be made in") from error
 
 
 def _files_of(source: str | Path | None) -> Iterable[Path]:
