@@ -134,7 +134,7 @@ def compare(answers: NDArray[Any], trace: NDArray[Any]) -> dict[str, Any]:
     off = np.stack([np.abs(answers[name] - trace[name]) for name in NEURONS], axis=1)
     return {
         "largest difference": dict(zip(NEURONS, off.max(axis=0).tolist(), strict=True)),
-        f"frames with a potential off by over {TOLERANCE}": int((off > TOLERANCE).any(axis=1).sum()),
+        f"frames with a potential off by over {TOLERANCE}": int((~(off <= TOLERANCE)).any(axis=1).sum()),
         "frames with other spikes": int((answers["spikes"] != spikes).any(axis=1).sum()),
         "frames with another decision": int((answers["collision"] != trace["collision"]).sum()),
         "frames with another state": int((states != trace["state"]).sum()),

@@ -149,7 +149,7 @@ def test_a_signal_ends_it_with_what_was_queued_delivered(spawn, movie, tmp_path,
     [
         (["--hook", "pigeon:nest"], "hook 'pigeon': must be one of ndjson:FILE, unix:PATH, tcp:HOST:PORT, "),
         (["--hook", "tcp:9000"], "hook tcp:9000: must be tcp:HOST:PORT, port 1 to 65535"),
-        (["--hook", "exec:no-such-program"], "hook exec:no-such-program: no such program"),
+        (["--hook", "exec:no-such-program"], "hook exec:no-such-program: no program: must be executable"),
         (["--hook", "http://me:secret@host:x/"], "hook http://...: must be http[s]://[user:password@]host[:port]/path"),
         (["--hook", "ndjson:no/out"], "cannot write no/out: no such folder no"),
         (["--hook", "ndjson:."], "hook 1 .: is a folder, must be a file"),

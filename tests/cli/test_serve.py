@@ -121,6 +121,13 @@ class TestARecording:
         assert rows["frame"].tolist() == list(range(30, 60, 2))
         assert served.stop(signal.SIGTERM)[0] == 143
 
+    def test_a_file_of_images_is_no_trace(self, serve, movie, tmp_path):
+        np.savez(tmp_path / "movie.npz", images=movie.images[:20], times_s=movie.times_s[:20])
+        served = serve("movie.npz")
+        assert served.first["mode"] == "recording"
+        with Watcher(served) as watcher:
+            assert len(rows_of(watcher, 20, 1)) == 20
+
 
 class TestASavedTrace:
     def test_it_is_shown_as_it_was_saved(self, serve, call, clip, tmp_path):

@@ -234,7 +234,7 @@ class TestClips:
         (("--on", "battery"), "Missing option '--out'"),
         (("--out", "t"), "Missing option '--on'"),
         (("--on", "batery", "--out", "t"), "--on batery: must be battery, arena, or a file LABELS.csv"),
-        (("--on", "none.csv", "--out", "t", "--clips", "."), "labels none.csv: no such file"),
+        (("--on", "none.csv", "--out", "t", "--clips", "."), "--on none.csv: no such file: must be labels of clips"),
         ((*SHORT[1:], "--vary", "lgmd2.sigmod"), "--vary lgmd2.sigmod: no such setting: did you mean lgmd2.sigmoid"),
         ((*SHORT[1:], "--vary", "lgmd2.sigmoid_grey=2..1"), "must be LOW..HIGH in 1e-06..100 grey"),
         ((*SHORT[1:], "--trials", "0"), "0 trials: must be 1 to"),

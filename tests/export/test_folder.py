@@ -168,3 +168,13 @@ def test_the_wheels_follow_the_actions(folders):
             assert (spin_deg_s > 0) == (action == "turn left")
             assert 120 / 0.8 - 0.5 <= abs(spin_deg_s) <= 180 / 0.8 + 0.5
             assert left == -right
+
+
+@pytest.mark.parametrize("missing", [1, 99, 99 * 72 - 1])
+def test_a_picture_that_is_cut_off_is_told(missing, folders):
+    images = np.zeros((3, 72, 99), np.uint8)
+    data = images.tobytes()[:-missing]
+    done = subprocess.run([folders("paper") / "robot"], input=data, capture_output=True, check=False)
+    assert done.returncode == 1
+    assert done.stderr == b"the last picture is cut off: pictures must be of 99 x 72 bytes\n"
+    assert done.stdout.count(b"\n") == 1 + 2  # the heading, and the two that are whole

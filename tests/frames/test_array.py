@@ -107,7 +107,8 @@ class TestFile:
     @pytest.mark.parametrize(
         ("content", "error", "message"),
         [
-            ({"trace": np.zeros(3)}, FrameSourceError, r"a\.npz: holds no images: must be a file of numpy\.savez with"),
+            ({"a": np.zeros(3)}, FrameSourceError, r"a\.npz: holds no images: must be a file of numpy\.savez with"),
+            ({"trace": np.zeros(3)}, FrameSourceError, r"; a trace is for lobula plot and serve$"),
             ({"images": np.array([None])}, FrameSourceError, r"a\.npz: not such a file: must be"),
             (
                 {"images": IMAGES, "times_s": np.array(list("abcd"))},
@@ -129,3 +130,9 @@ class TestFile:
         (tmp_path / "a.npz").write_bytes(data)
         with pytest.raises(FrameSourceError, match=r"a\.npz: not such a file: must be"):
             lobula.frames.open(tmp_path / "a.npz")
+
+
+@pytest.mark.parametrize(("rate_hz", "stride", "told"), [(30, 1, False), (8, 1, False), (30, 4, True), (5, 1, True)])
+def test_too_few_pictures_a_second_are_told(rate_hz, stride, told):
+    with lobula.frames.open(IMAGES, rate_hz=rate_hz, stride=stride) as frames:
+        assert [note.startswith("array: ") and "too few to rely on" in note for note in frames.notes] == [True] * told

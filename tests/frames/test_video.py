@@ -236,3 +236,11 @@ def test_pixel_format_may_change_but_not_the_size(tmp_path):
 def test_importing_frames_does_not_import_a_decoder():
     code = "import sys, lobula.frames; sys.exit('av' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+def test_a_file_that_may_not_be_read(tmp_path, monkeypatch):
+    path = tmp_path / "a.mp4"
+    path.write_bytes(b"a video")
+    monkeypatch.setattr("lobula.frames.video.os.access", lambda name, mode: False)
+    with pytest.raises(FrameSourceError, match=r"a\.mp4: no permission to read it$"):
+        lobula.frames.open(path)

@@ -102,7 +102,7 @@ def test_a_program_that_has_gone_since(tmp_path):
     [
         ("exec:", "no program is named"),
         ("exec:'open", "No closing quotation"),
-        ("exec:no-such-program --password secret", "hook exec:no-such-program: no such program"),
+        ("exec:no-such-program --password secret", "hook exec:no-such-program: no program: must be executable"),
     ],
 )
 def test_commands_that_cannot_be(target, says):

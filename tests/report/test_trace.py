@@ -146,7 +146,7 @@ def test_missing_file_and_nonsense_are_one_line(tmp_path: Path, suffix: str) -> 
 
 def test_npz_of_something_else(tmp_path: Path) -> None:
     np.savez(tmp_path / "t.npz", other=np.arange(3))
-    with pytest.raises(FrameSourceError, match="no array named trace"):
+    with pytest.raises(FrameSourceError, match=r"t\.npz: holds no trace: must be what lobula run --trace wrote"):
         read_trace(tmp_path / "t.npz")
 
 

@@ -93,6 +93,7 @@ def serve(
     """
     from ..dashboard.live_settings import LiveSettings
     from ..dashboard.server import Site
+    from ..frames.array import holds_images
     from ..frames.selection import Selection
     from ..model.scaling import scaled
     from ..report.trace_file import TRACE_SUFFIXES
@@ -118,7 +119,7 @@ def serve(
         selection = Selection(start_s=start, end_s=end, stride=stride, max_frames=max_frames)
         with open_robot(line, selection, reconnect, timeout) as robot:
             return watch_robot(robot, hooks, hook_rate, site, json)
-    if Path(source).suffix.lower() in TRACE_SUFFIXES:
+    if Path(source).suffix.lower() in TRACE_SUFFIXES and not holds_images(Path(source)):
         _refuse_hooks(hooks, source)
         return show_trace(Path(source), site, json)
     view = o.view(size, fit, roi, mask, flip, rotate)

@@ -124,6 +124,8 @@ def _require_options_of(on: str, given: dict[str, Any]) -> None:
     kind = on if on in (BATTERY, ARENA) else "clips"
     if kind == "clips" and not on.lower().endswith(".csv"):
         raise ParameterError(f"--on {on}: must be {BATTERY}, {ARENA}, or a file LABELS.csv")
+    if kind == "clips" and not Path(on).is_file():
+        raise ParameterError(f"--on {on}: no such file: must be labels of clips")
     wanted = {BATTERY: (), ARENA: ARENA_ONLY, "clips": CLIPS_ONLY}[kind]
     for name, value in given.items():
         if value not in (None, False) and name not in wanted:

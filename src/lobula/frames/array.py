@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
@@ -73,7 +74,8 @@ def open_npz(path: str, rate_hz: float | None = None) -> ArrayReader:
     try:
         with np.load(Path(path), allow_pickle=False) as file:
             if "images" not in file:
-                raise FrameSourceError(f"{path}: holds no images: {allowed}")
+                trace = "; a trace is for lobula plot and serve" if "trace" in file else ""
+                raise FrameSourceError(f"{path}: holds no images: {allowed}{trace}")
             times_s = file["times_s"].astype(np.float64) if rate_hz is None and "times_s" in file else None
             images = file["images"]
     except FrameSourceError:
@@ -81,3 +83,12 @@ def open_npz(path: str, rate_hz: float | None = None) -> ArrayReader:
     except Exception as error:  # a damaged file can raise what its zip, its compressor, its headers or its size will
         raise FrameSourceError(f"{path}: {getattr(error, 'strerror', None) or 'not such a file'}: {allowed}") from error
     return ArrayReader(images, times_s, rate_hz, path)
+
+
+def holds_images(path: Path) -> bool:
+    """Whether a file is one that ``open_npz`` is for."""
+    try:
+        with zipfile.ZipFile(path) as file:
+            return "images.npy" in file.namelist()
+    except (OSError, zipfile.BadZipFile):
+        return False

@@ -56,6 +56,10 @@ class Decoded(NamedTuple):
     layout: Layout
 
 
+FEWEST_HZ = 8.0
+"""With fewer pictures a second the network is not to be relied on; with five it never alarms (docs/limits.md)."""
+
+
 class FrameSource(ABC):
     """An open source of frames: a context manager and an iterator, once through.
 
@@ -75,6 +79,7 @@ class FrameSource(ABC):
         self.width, self.height = view.size
         self._lay_out(reader.first)
         self.fps = reader.fps
+        self._slow = _too_slow(reader.name, reader.fps / selection.stride)
         self.frame_count = selection.expected(reader.frame_count, reader.fps)
         self.dropped = 0
         self._delivered = 0
@@ -88,7 +93,7 @@ class FrameSource(ABC):
     @property
     def notes(self) -> list[str]:
         """Lines for the user about what is odd but no error."""
-        return list(self._reader.notes)
+        return [*self._reader.notes, *self._slow]
 
     def picture(self) -> NDArray[np.uint8]:
         """Return the last frame's whole picture, upright, (source_height, source_width, 3) RGB; made when asked for.
@@ -187,3 +192,10 @@ class FrameSequence(FrameSource):
                 wanted += f" to {self._selection.end_s:g} s"
             raise FrameSourceError(f"{self.name}: no frame {wanted}: must lie inside the source")
         raise StopIteration
+
+
+def _too_slow(name: str, rate_hz: float) -> list[str]:
+    """What is to be said of so few pictures a second; 0 where nobody knows how many."""
+    if not 0 < rate_hz < FEWEST_HZ:
+        return []
+    return [f"{name}: {rate_hz:.3g} pictures a second: too few to rely on, must be {FEWEST_HZ:g} or more"]

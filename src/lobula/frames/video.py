@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections import deque
 from collections.abc import Iterator
 from os import PathLike, fspath
@@ -47,6 +48,8 @@ def open_file(path: str | PathLike[str], threads: int = 1, rate_hz: float | None
     name = fspath(path)
     if Path(name).is_file() and not Path(name).stat().st_size:
         raise FrameSourceError(f"{name}: is empty: must be a file that FFmpeg decodes")
+    if Path(name).is_file() and not os.access(name, os.R_OK):
+        raise FrameSourceError(f"{name}: no permission to read it")
     allowed = "not a video: must be a file that FFmpeg decodes, not cut off before its index"
     # "file:" keeps a ":" in the name from being read as a protocol
     return VideoReader(open_container(name, f"file:{name}", allowed), name, threads=threads, rate_hz=rate_hz)

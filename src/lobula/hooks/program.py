@@ -36,7 +36,7 @@ def make(target: str) -> Hook:
     if not words:
         raise ParameterError("hook exec: no program is named: must be exec:COMMAND")
     if shutil.which(words[0]) is None:
-        raise ParameterError(f"hook exec:{words[0]}: no such program: must be on the PATH or a path of its own")
+        raise ParameterError(f"hook exec:{words[0]}: no program: must be executable, on the PATH or a path of its own")
     return Program(words)
 
 

@@ -132,7 +132,7 @@ def _table(path: Path, text: str, parse: Callable[[str], Mapping[str, str]], *, 
 def _read_npz(path: Path) -> tuple[NDArray[np.void], dict[str, Any]]:
     with np.load(path, allow_pickle=False) as file:
         if not isinstance(file, np.lib.npyio.NpzFile) or "trace" not in file:
-            raise ValueError("it holds no array named trace")
+            raise FrameSourceError(f"trace {path}: holds no trace: must be what lobula run --trace wrote")
         trace = file["trace"]
         about = json.loads(str(file["about"])) if "about" in file else {}
     _require_columns(path, trace.dtype.names or ())

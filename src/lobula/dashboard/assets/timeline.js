@@ -74,7 +74,7 @@ export function makeTimeline(record, moved) {
       for (const [number, name] of [[0, "lgmd1"], [1, "lgmd2"]]) curve(context, record, number, ink(name), x, width, height);
       context.fillStyle = ink("text");
       context.fillRect(Math.min(Math.max(0, ((time - first) / span) * width - 1), width - 2), 0, 2, height);
-      clock.textContent = `${time.toFixed(2)} / ${record.last.toFixed(2)} s`;
+      clock.textContent = `${Math.max(time, first).toFixed(2)} / ${record.last.toFixed(2)} s`;
     },
   };
 }

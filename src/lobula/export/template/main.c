@@ -7,10 +7,8 @@
 #include "lobula.h"
 #include "motor.h"
 
-/* >> The next line of the camera, luminance 0..255; 0 where there is none. */
-static int next_line(uint8_t line[LOBULA_WIDTH]) {
-    return fread(line, 1, LOBULA_WIDTH, stdin) == LOBULA_WIDTH;
-}
+/* >> The next line of the camera, luminance 0..255; its length, less than a line where there is no more. */
+static size_t next_line(uint8_t line[LOBULA_WIDTH]) { return fread(line, 1, LOBULA_WIDTH, stdin); }
 
 int main(void) {
     static lobula_state state; /* static: larger than most stacks */
@@ -26,7 +24,12 @@ int main(void) {
     for (long frame = 0;; frame++) {
         lobula_begin_frame(&state); /* >> at the vertical sync; if none comes for half a second, stop the motors here */
         for (int row = 0; row < LOBULA_HEIGHT; row++) {
-            if (!next_line(line)) return 0;
+            const size_t length = next_line(line);
+            if (length < LOBULA_WIDTH) {
+                if (row == 0 && length == 0) return 0;
+                fprintf(stderr, "the last picture is cut off: pictures must be of %d x %d bytes\n", LOBULA_WIDTH, LOBULA_HEIGHT);
+                return 1;
+            }
             lobula_push_row(&state, line);
         }
         const float dt_ms = 1000.0f / 30.0f; /* >> from the vertical sync before to this one, by your timer */
