@@ -106,7 +106,8 @@ class TestCheckpoint:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("--robots", "0"), "RobotParams.count = 0: must be"),
+        (("--robots", "0"), "--robots 0: must be from 1 to 256"),
+        (("--robots", "257"), "--robots 257: must be from 1 to 256"),
         (("--minutes", "-1"), "minutes = -1.0: must be above 0"),
         (("--save", "run.avi"), "--save run.avi: must end in .npz"),
         (("--world", "none.toml"), "none.toml"),

@@ -6,7 +6,10 @@ import json
 import signal
 
 import av
+import numpy as np
 import pytest
+
+from lobula.arena.snapshot import save_snapshot
 
 SHORT = ("arena", "--minutes", "0.05", "--seed", "5")
 
@@ -53,6 +56,40 @@ def test_a_signal_while_the_film_is_made_leaves_what_there_is_and_a_record(call,
 
 
 @pytest.mark.parametrize(
+    ("options", "film"),
+    [
+        # 30 frames a second until 1 s
+        (("--save", "r.mp4"), "; the film: {frames} pictures to draw, 1 s to play"),
+        (("--save", "r.mp4", "--speed", "0.25", "--end", "0.5"), "; the film: 15 pictures to draw, 2 s to play"),
+        (("--save", "r.png"), ""),
+        (("--save", "r.npz"), ""),
+    ],
+)
+def test_a_signal_tells_how_long_the_film_takes_that_is_still_made(call, tmp_path, monkeypatch, options, film):
+    def along(here):
+        return lambda done_minutes, minutes: signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("lobula.cli.arena._along", along)
+    done = call(*SHORT, *options, "--json")
+    assert done.code == 130
+    (record,) = done.records
+    frames = round(record["minutes"] * 1800)
+    assert 30 <= frames < 90
+    told = done.err.splitlines()[0].split(" simulated minutes; ")[1]
+    assert told == f"saving, Ctrl-C again ends that too{film.format(frames=frames)}"
+    if film:
+        assert f" {record['film']['frames']} pictures" in told
+        assert frames_in(tmp_path / "r.mp4") == record["film"]["frames"]
+
+
+def test_a_part_that_was_not_reached_is_said_once(call, monkeypatch):
+    monkeypatch.setattr("lobula.cli.arena._along", lambda here: lambda *_: signal.raise_signal(signal.SIGINT))
+    done = call(*SHORT, "--save", "r.mp4", "--start", "2")
+    assert "saving, Ctrl-C again ends that too\n" in done.err
+    assert done.err.count("from 2 s to its end: must be a part of the run") == 1
+
+
+@pytest.mark.parametrize(
     ("options", "words"),
     [
         (("--save", "r.avi"), "--save r.avi: must end in .npz, .mp4, .png"),
@@ -87,3 +124,17 @@ def test_replays_that_cannot_be(call, options, words):
     done = call("arena", "--replay", "none.npz", *options)
     assert done.code == 2
     assert words in done.err
+
+
+@pytest.mark.parametrize("kind", ["trace", "text", "checkpoint"])
+def test_a_replay_of_a_file_that_is_no_run(call, tmp_path, kind):
+    if kind == "trace":
+        np.savez(tmp_path / "x.npz", lgmd1=np.zeros(3))
+    elif kind == "text":
+        (tmp_path / "x.npz").write_text("no")
+    else:
+        save_snapshot(tmp_path / "x.npz", {"minutes": 1.0})
+    done = call("arena", "--replay", "x.npz", "--save", "r.png")
+    assert (done.code, done.err.count("\n")) == (2, 1)
+    assert done.err.startswith("lobula: --replay x.npz: is no ")
+    assert done.err.endswith(": must be a run saved by `lobula arena --save FILE.npz`\n")

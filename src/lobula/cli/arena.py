@@ -74,7 +74,7 @@ def arena(
     from ..arena.world import World
     from ..arena.world_file import load_world, parse_world
     from ..runtime.interrupts import Interrupted
-    from .arena_saves import Shown, check_saves
+    from .arena_saves import Shown, check_saves, film_words
     from .arena_text import as_text, record, refusal
     from .destinations import check_files
     from .progress import say, screen
@@ -96,6 +96,7 @@ def arena(
                      "--sensitivity": sensitivity, "--storage": storage, "--checkpoint": checkpoint,
                      "--events": events})  # fmt: skip
             return _replay(replay, saves, shown, json)
+        _require_count(robots)
         there = None if world is None else load_world(world)
         kept = load_snapshot(checkpoint) if checkpoint is not None and checkpoint.exists() else None
         request: dict[str, Any] = {
@@ -120,7 +121,11 @@ def arena(
             print(refusal(error), flush=True)
         raise
     if saves and ended.code:
-        say(f"lobula: interrupted after {ended.run.minutes:.2f} simulated minutes; saving, Ctrl-C again ends that too")
+        words = film_words(ended.run.record, saves, shown)
+        say(
+            f"lobula: interrupted after {ended.run.minutes:.2f} simulated minutes; "
+            f"saving, Ctrl-C again ends that too{words}"
+        )
     said, failure = _write(ended.run, saves, shown, events)
     failure = failure or ended.failure
     print(record(ended.run, chosen, failure, said) if json else as_text(ended.run), flush=True)
@@ -129,6 +134,14 @@ def arena(
     if ended.code:
         say(f"lobula: interrupted after {ended.run.minutes:.2f} of {length:g} simulated minutes")
     return ended.code
+
+
+def _require_count(robots: int | None) -> None:
+    from ..arena.world import RobotParams
+
+    about = RobotParams.__dataclass_fields__["count"].metadata
+    if robots is not None and not about["low"] <= robots <= about["high"]:
+        raise ParameterError(f"--robots {robots}: must be from {about['low']} to {about['high']}")
 
 
 def _run(request: dict[str, Any], here: Screen) -> Ended:
@@ -198,7 +211,10 @@ def _replay(path: Path, saves: list[Path], shown: Shown, json: bool) -> int:
 
     if not saves or any(save.suffix.lower() == REPLAY for save in saves):
         raise ParameterError(f"--replay {path}: draws a run: must go with --save FILE.mp4 or --save FILE.png")
-    record = load_record(path)
+    try:
+        record = load_record(path)
+    except ParameterError as error:
+        raise ParameterError(f"--replay {error}: must be a run saved by `lobula arena --save FILE.npz`") from error
     frames, count = record.poses.shape[:2]
     check_saves(saves, shown, count, frames, record.world.camera.rate_hz)
     said = write_saves(record, saves, shown)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..errors import ParameterError
+from .counted import counted
 from .destinations import check_ending
 from .progress import screen
 
@@ -74,11 +75,30 @@ def write_saves(record: Record, saves: Sequence[Path], shown: Shown) -> dict[str
     return said
 
 
+def film_words(record: Record | None, saves: Sequence[Path], shown: Shown) -> str:
+    """Return, for the end of a line, how long a film will be made of a run that ended early; else nothing."""
+    if record is None or all(path.suffix.lower() != FILM for path in saves):
+        return ""
+    try:
+        pictures, speed = _pictures(record, shown)
+    except ParameterError:  # the part that was asked for was not reached: said when it is to be written
+        return ""
+    playing_s = len(pictures) * pictures.step / (record.world.camera.rate_hz * speed)
+    return f"; the film: {counted(len(pictures), 'picture')} to draw, {playing_s:.0f} s to play"
+
+
+def _pictures(record: Record, shown: Shown) -> tuple[range, float]:
+    from ..experiments.arena_film import frames_of
+
+    rate_hz = record.world.camera.rate_hz
+    return frames_of(len(record.poses), rate_hz, start_s=shown.start_s, end_s=shown.end_s, speed=shown.speed)
+
+
 def _film(record: Record, path: Path, shown: Shown) -> dict[str, Any]:
-    from ..experiments.arena_film import frames_of, save_film
+    from ..experiments.arena_film import save_film
 
     part: dict[str, Any] = {"start_s": shown.start_s, "end_s": shown.end_s, "speed": shown.speed}
-    pictures, _ = frames_of(len(record.poses), record.world.camera.rate_hz, **part)
+    pictures, _ = _pictures(record, shown)
     with screen(len(pictures), "pictures of the film") as here:
         film = save_film(record, path, robot=shown.robot or 0, advance=here.advance, **part)
     return {"frames": film.frames, "duration_s": round(film.duration_s, 3), "speed": film.speed}
