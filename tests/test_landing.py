@@ -1,5 +1,6 @@
 """Files land whole or not at all."""
 
+import os
 from pathlib import Path
 
 import pytest
@@ -85,3 +86,11 @@ def test_a_folder_that_is_there_is_not_said_to_be_missing(tmp_path: Path) -> Non
     with pytest.raises(OutputError) as caught, writing(tmp_path / "t.csv"):
         raise FileNotFoundError(2, "")  # as in /proc, where a folder takes no files
     assert str(caught.value) == f"cannot write {tmp_path / 't.csv'}: no file can be made there"
+
+
+def test_a_device_or_a_pipe_is_not_replaced(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(OutputError, match=r"pipe: it is no ordinary file, and would be replaced by one"):
+        with whole_file(tmp_path / "pipe") as temporary:
+            temporary.write_text("new")
+    assert (tmp_path / "pipe").is_fifo()

@@ -86,6 +86,8 @@ def whole_file(path: Path, *also: type[Exception]) -> Iterator[Path]:
     ------
     OutputError : the file cannot be written; the temporary one is removed and ``path`` is as it was
     """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise OutputError(f"cannot write {path}: it is no ordinary file, and would be replaced by one")
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     with writing(path, *also):
         try:
