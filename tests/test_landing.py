@@ -90,7 +90,7 @@ def test_a_folder_that_is_there_is_not_said_to_be_missing(tmp_path: Path) -> Non
 
 def test_a_device_or_a_pipe_is_not_replaced(tmp_path: Path) -> None:
     os.mkfifo(tmp_path / "pipe")
-    with pytest.raises(OutputError, match=r"pipe: it is no ordinary file, and would be replaced by one"):
-        with whole_file(tmp_path / "pipe") as temporary:
-            temporary.write_text("new")
+    said = "pipe: it is no ordinary file, and would be replaced by one"
+    with pytest.raises(OutputError, match=said), whole_file(tmp_path / "pipe") as temporary:
+        temporary.write_text("new")
     assert (tmp_path / "pipe").is_fifo()
