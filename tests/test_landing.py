@@ -69,7 +69,7 @@ def test_failure_leaves_the_old_file_and_no_litter(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("error", "words"),
     [
-        (FileNotFoundError(2, ""), "no such folder out"),
+        (FileNotFoundError(2, ""), "no such folder nowhere"),
         (OSError(28, ""), "the disk is full"),
         (PermissionError(13, ""), "no permission"),
         (IsADirectoryError(21, ""), "it is a folder"),
@@ -77,9 +77,9 @@ def test_failure_leaves_the_old_file_and_no_litter(tmp_path: Path) -> None:
     ],
 )
 def test_errors_become_one_line_that_names_the_file(error: OSError, words: str) -> None:
-    with pytest.raises(OutputError) as caught, writing(Path("out/t.csv")):
+    with pytest.raises(OutputError) as caught, writing(Path("nowhere/t.csv")):
         raise error
-    assert str(caught.value) == f"cannot write out/t.csv: {words}"
+    assert str(caught.value) == f"cannot write nowhere/t.csv: {words}"
 
 
 def test_a_folder_that_is_there_is_not_said_to_be_missing(tmp_path: Path) -> None:
