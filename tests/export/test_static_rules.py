@@ -50,8 +50,9 @@ def test_no_heap_no_jumps_no_end_of_the_program(folder):
 def calls_in(folder):
     """Function -> those it may call. Through a table whatever nobody calls by its name may be called."""
     done = compile_in(folder, "-O1", "-fno-inline", "-fcallgraph-info")
-    if done.returncode != 0:
+    if "-fcallgraph-info" in done.stderr:
         pytest.skip("the compiler draws no call graph")
+    assert done.returncode == 0, done.stderr
     text = "".join(path.read_text() for path in folder.glob("*.ci"))
     calls = {name: set() for name in NODE.findall(text)}
     for caller, called in EDGE.findall(text):

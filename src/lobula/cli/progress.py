@@ -9,7 +9,9 @@ from functools import partial
 from typing import Any, NamedTuple, cast
 
 from ..runtime.courier import Courier
-from ..runtime.unbuffered import Writable, unbuffered
+from ..runtime.saying import say as say
+from ..runtime.saying import write_line
+from ..runtime.unbuffered import unbuffered
 
 Say = Callable[[str], None]
 """Writes one line for people."""
@@ -27,20 +29,6 @@ class Screen(NamedTuple):
     describe: Describe | None = None
 
 
-def say(text: str) -> None:
-    """Write one line on standard error, at once; where nobody can be told any more, nobody is."""
-    if sys.stderr is None:  # as it is in a program that was started without one
-        return
-    # a terminal's own stream keeps lines clear of a bar; elsewhere what cannot be written must not wait in a buffer
-    _write(sys.stderr if sys.stderr.isatty() else unbuffered(sys.stderr), text)
-
-
-def _write(stream: Writable, text: str) -> None:
-    with suppress(OSError):
-        stream.write(f"{text}\n")
-        stream.flush()
-
-
 @contextmanager
 def screen(total: int | None, what: str) -> Iterator[Screen]:
     """Give a bar over ``total`` steps (None: nobody knows how many) where standard error is a terminal.
@@ -50,8 +38,7 @@ def screen(total: int | None, what: str) -> Iterator[Screen]:
     if sys.stderr is None or not sys.stderr.isatty():
         yield Screen(say, None)
         return
-    # what goes to a file or a program is none of the bar's business
-    bar = _Bar(total, what, redirect_stdout=sys.stdout is not None and sys.stdout.isatty())
+    bar = _Bar(total, what)
     bar.start()
     try:
         yield Screen(bar.say, bar.advance, bar.describe)
@@ -66,9 +53,8 @@ def live_screen(total: int | None, what: str) -> Iterator[Screen]:
         with live_words() as tell:
             yield Screen(tell, None)
         return
-    # rich's own thread would wait in a stopped terminal, with a lock that the end of the bar needs
     courier = Courier("standard error")
-    bar = _Bar(total, what, file=unbuffered(sys.stderr), redirect_stdout=False, redirect_stderr=False, refreshed=False)
+    bar = _Bar(total, what, live=True)
     courier.send(bar.start)
     try:
         yield Screen(
@@ -87,29 +73,33 @@ def live_words() -> Iterator[Say]:
     courier = Courier("standard error")
     stream = None if sys.stderr is None else unbuffered(sys.stderr)
     try:
-        yield lambda text: courier.send(partial(_write, stream, text)) if stream else None
+        yield lambda text: courier.send(partial(write_line, stream, text)) if stream else None
     finally:
         courier.close()
 
 
 class _Bar:
-    """A bar of rich with lines above it, which a terminal that is gone does not trouble."""
+    """A bar of rich with lines above it, which a terminal that is gone does not trouble.
 
-    def __init__(
-        self, total: int | None, what: str, *, file: Writable | None = None, redirect_stdout: bool,
-        redirect_stderr: bool = True, refreshed: bool = True,
-    ) -> None:  # fmt: skip
+    One that is ``live`` is drawn when it is told something, without a thread of rich's own: that would wait in a
+    stopped terminal, with a lock that the end of the bar needs.
+    """
+
+    def __init__(self, total: int | None, what: str, live: bool = False) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
         columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-        console = Console(file=cast(Any, file), stderr=True, highlight=False, force_terminal=True)
+        file = cast(Any, unbuffered(sys.stderr)) if live else None
+        console = Console(file=file, stderr=True, highlight=False, force_terminal=True)
+        # what goes to a file or a program is none of the bar's business
+        shared = not live and sys.stdout is not None and sys.stdout.isatty()
         self._progress = Progress(
-            *columns, console=console, transient=True, auto_refresh=refreshed, redirect_stdout=redirect_stdout,
-            redirect_stderr=redirect_stderr,
+            *columns, console=console, transient=True, auto_refresh=not live, redirect_stdout=shared,
+            redirect_stderr=not live,
         )  # fmt: skip
         self._task = self._progress.add_task(what, total=total)
-        self._refreshed = refreshed
+        self._live = live
 
     def start(self) -> None:
         with suppress(OSError):
@@ -130,4 +120,4 @@ class _Bar:
         from rich.markup import escape
 
         with suppress(OSError):
-            self._progress.update(self._task, description=escape(text), completed=done, refresh=not self._refreshed)
+            self._progress.update(self._task, description=escape(text), completed=done, refresh=self._live)

@@ -7,6 +7,7 @@ from collections.abc import Callable
 
 from ..errors import FrameSourceError, LobulaError, OutputError
 from .interrupts import Interrupted, raised_at_once
+from .saying import say
 
 
 def exit_code(error: LobulaError) -> int:
@@ -24,17 +25,12 @@ def run_script(work: Callable[[], None], if_interrupted: str = "") -> int:
         with raised_at_once():
             work()
     except LobulaError as error:
-        _say(f"lobula: {error}")
+        say(f"lobula: {error}")
         return exit_code(error)
     except Interrupted as stop:
-        _say(f"lobula: interrupted ({stop}){'; ' if if_interrupted else ''}{if_interrupted}")
+        say(f"lobula: interrupted ({stop}){'; ' if if_interrupted else ''}{if_interrupted}")
         return stop.exit_code
     return 0
-
-
-def _say(text: str) -> None:
-    if sys.stderr is not None:  # as it is in a program that was started without one
-        print(text, file=sys.stderr)
 
 
 def counter(total: int, things: str) -> Callable[[], None]:
